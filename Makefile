@@ -60,7 +60,7 @@ WITHOUT_TESTS = $(NATIVE_OPTION) $(shell grep -qs '^HULLBENCH_TESTS:BOOL=ON' bui
   [ -d "$$(sed -n 's/^GTest_DIR:PATH=//p' build/CMakeCache.txt)" ] || echo -DHULLBENCH_TESTS=OFF)
 WITH_TESTS = $(NATIVE_OPTION) -DHULLBENCH_TESTS=ON
 
-.PHONY: help deps deps-extra deps-real deps-legacy build bench bench-quick figures figures-core report report-compare evaluate bench-core bench-footprint bench-gate bench-gate-instructions reference test test-sanitize build-clang test-clang test-fresh test-slurm test-gate fuzz lint format docs js js-bench clean clean-legacy
+.PHONY: help deps deps-extra deps-real deps-legacy build tool package package-tool bench bench-quick figures figures-core figures-default report paper site report-compare fit-default fit-rules evaluate bench-core bench-footprint bench-gate bench-gate-instructions reference test test-sanitize build-clang test-clang test-fresh test-slurm test-gate fuzz lint format docs js js-bench clean clean-legacy
 
 help: ## list the targets (the default)
 	@awk 'BEGIN { FS = ":.*## " } /^[a-z-]+:.*## / { printf "  make %-23s %s\n", $$1, $$2 }' Makefile
@@ -88,18 +88,15 @@ build: ## only build: build/hullbench, build/polylidar and build/core_benchmarks
 	@$(call build,release,$(WITHOUT_TESTS),hullbench polylidar core_benchmarks)
 	@echo "==> built build/hullbench, build/polylidar and build/core_benchmarks"
 
-.PHONY: tool
 tool: ## build only polylidar, the program for your own points, as build-tool/polylidar (GDAL=1: with GeoPackage and what else GDAL has)
 	@$(call install,tool $(if $(filter-out 0,$(GDAL)),gdal))
 	@$(call build,tool,$(NATIVE_OPTION) -DPOLYLIDAR_WITH_GDAL=$(if $(filter-out 0,$(GDAL)),ON,OFF))
 	@echo "==> built build-tool/polylidar"
 
-.PHONY: package
 package: ## make Debian packages of the library, the Python module and the programs in build/packages
 	@$(call install,build python package)
 	@$(call build,release,$(WITHOUT_TESTS),debs)
 
-.PHONY: package-tool
 package-tool: ## make the Debian package of polylidar alone in build-tool/packages, without the harness (GDAL=1: with what GDAL has)
 	@$(call install,tool package $(if $(filter-out 0,$(GDAL)),gdal))
 	@$(call build,tool,$(NATIVE_OPTION) -DPOLYLIDAR_WITH_GDAL=$(if $(filter-out 0,$(GDAL)),ON,OFF),deb_polylidar-tools)
@@ -145,7 +142,6 @@ report: ## write results/latest/report.html, one file with everything about the 
 	@$(call drawn,$(RUN),$(call drawn_folder,$(RUN)))
 	@/usr/bin/python3 plots/make_report.py $(call drawn_folder,$(RUN)) --out $(call drawn_into,$(RUN))/report.html
 
-.PHONY: paper
 paper: ## write results/latest/paper.pdf, all figures and tables in a journal's column widths (RUN=FOLDER: any run)
 	@$(call install,build plots paper)
 	@$(MAKE) build
@@ -156,7 +152,6 @@ RUNS ?= results/reference
 # Whether "make js" can be made here.
 HAS_WASM = $(shell command -v clang++ >/dev/null && command -v wasm-ld >/dev/null && [ -d /usr/include/wasm32-wasi/c++ ] && echo yes)
 
-.PHONY: site
 site: ## write build/site, static pages of the reference run for any web server (RUNS="FOLDER...": of these runs)
 	@$(call install,build plots)
 	@$(if $(SKIP_DEPS),,cmake/install-npm.sh plots)
@@ -179,13 +174,11 @@ report-compare: ## write B/comparison.html, a page with two runs side by side (A
 	@/usr/bin/python3 plots/make_comparison.py $(call drawn_folder,$(A),a/) $(call drawn_folder,$(B),b/) \
 	  --compared build/drawn/compared.json --out $(B)/comparison.html
 
-.PHONY: fit-default fit-rules
 fit-default: ## fit the numbers of the core's automatic limit on the training side, and say what it gives on the test side
 	@$(call install,build)
 	@$(call build,release,$(WITHOUT_TESTS),fit_default)
 	@build/fit_default --tries 100 --ablation
 
-.PHONY: figures-default
 figures-default: ## draw the picture of core/AUTOMATIC.md: the core's default and the former one under every way to sample
 	@$(call install,build plots)
 	@$(call build,release,$(WITHOUT_TESTS),fit_default)

@@ -92,6 +92,10 @@ test("LAS", async () => {
   await assert_rows(las(rows), rows);
   await assert_rows(las(rows, { minor: 4 }), rows);
   assert.equal((await read(las(rows, { minor: 4 }))).format, "LAS 1.4");
+  const withheld = [las(rows), las(rows, { minor: 4 })];
+  withheld[0][227 + 15] = 128;
+  withheld[1][375 + 15] = 4;
+  for (const file of withheld) await assert_rows(file, rows.slice(1));
   await assert_rows(las([]), []);
 });
 

@@ -11,7 +11,7 @@ const format_measure = new Intl.NumberFormat("en", { maximumSignificantDigits: 4
 const format_time = (ms) =>
   ms < 10 ? `${ms.toFixed(1)} ms` : ms < 1000 ? `${ms.toFixed(0)} ms` : `${(ms / 1000).toFixed(2)} s`;
 
-/** A worker that answers one question at a time: ask(name, given, transferred) is a promise of the answer. */
+/** A worker that answers questions: ask(name, given) is a promise of the answer. */
 class Asked {
   #worker = new Worker(URL.createObjectURL(new Blob([worker_source], { type: "text/javascript" })));
   #waiting = new Map();

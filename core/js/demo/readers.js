@@ -47,12 +47,15 @@ function las_points(bytes) {
   if (count > there) throw new FileError(`the file is cut off: it has ${there} of ${count} points`);
   const [scale_x, scale_y] = [view.getFloat64(131, true), view.getFloat64(139, true)];
   const [offset_x, offset_y] = [view.getFloat64(155, true), view.getFloat64(163, true)];
+  const withheld = format < 6 ? 128 : 4; // a bit of byte 15: the point is to be left out
   const xy = new Float64Array(2 * count);
+  let end = 0;
   for (let i = 0, at = begin; i < count; i++, at += size) {
-    xy[2 * i] = view.getInt32(at, true) * scale_x + offset_x;
-    xy[2 * i + 1] = view.getInt32(at + 4, true) * scale_y + offset_y;
+    if (view.getUint8(at + 15) & withheld) continue;
+    xy[end++] = view.getInt32(at, true) * scale_x + offset_x;
+    xy[end++] = view.getInt32(at + 4, true) * scale_y + offset_y;
   }
-  return { xy, format: `LAS ${view.getUint8(24)}.${minor}`, lonlat: false };
+  return { xy: xy.subarray(0, end), format: `LAS ${view.getUint8(24)}.${minor}`, lonlat: false };
 }
 
 // ---- NumPy's .npy, versions 1 to 3 ----

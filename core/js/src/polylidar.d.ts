@@ -62,9 +62,9 @@ export interface Hull {
 export function concaveHull(points: Points, options?: Options): Hull;
 
 /**
- * A hull for every label, a number, string or bigint for each point, all of one kind, by ascending label. Each is that of its points alone, with
- * indices into all points. Throws as concaveHull, a RangeError where there are not as
- * many labels as points, and a TypeError where a label is missing (NaN) or of another kind.
+ * A hull for every label, a number, string or bigint for each point, all of one kind, by ascending label. Each is that of
+ * its points alone, with indices into all points. Throws as concaveHull, a RangeError where there are not as many labels as
+ * points, and a TypeError where a label is missing (NaN) or of another kind.
  */
 export function concaveHulls<Label extends number | string | bigint>(
   points: Points,

@@ -112,13 +112,12 @@ def concave_hulls(
     """A concave hull for every label, as concave_hull makes it of that label's points alone, by ascending label. Shapes
     of different labels may overlap. The rows in their `indices` are those of all points.
 
-    labels: one a point, of the shape (n,): integers, text or whatever else can be sorted
-        (tuples in an array of objects only). The keys of the result are
-        Python's int, str and so on, of dates numpy's. Integers are the fastest.
+    labels: one a point, of the shape (n,): integers, text or whatever else can be sorted (tuples in an array of objects
+        only). The keys of the result are Python's int, str and so on, of dates numpy's. Integers are the fastest.
     The others, and the errors they raise: as of concave_hull. Labels are shared among the threads.
 
-    ValueError, besides: there are not as many labels as points, a label is missing (None, NaN, NaT or pandas.NA), or labels cannot be
-    sorted, such as numbers among text.
+    ValueError, besides: there are not as many labels as points, a label is missing (None, NaN, NaT or pandas.NA), or
+    labels cannot be sorted, such as numbers among text.
 
         >>> points = [(0, 0), (2, 0), (0, 2), (5, 5), (6, 5), (5, 6)]
         >>> {label: hull.area for label, hull in concave_hulls(points, [7, 7, 7, 3, 3, 3]).items()}
