@@ -31,7 +31,7 @@ constexpr std::uint32_t kEwkbZ = 0x80000000U;
 constexpr std::uint32_t kEwkbM = 0x40000000U;
 constexpr std::uint32_t kEwkbSrid = 0x20000000U;
 
-// Byte order, type and a count: no geometry but a point is shorter, and a point is longer.
+// Byte order, type and a count. A point has no count, but two coordinates, and is longer.
 constexpr std::size_t kSmallestGeometry = 9;
 
 // Collections nest by recursion; nothing that a hull method returns nests deeper than two.

@@ -36,8 +36,6 @@ DatasetInfo describe_family(const ShapeFamily& family) {
           .title = family.title,
           .source = family.source,
           .licence = family.licence,
-          .sha256 = {},
-          .area = std::nullopt,
           .has_holes_variant = family.holes.has_value(),
           .members = family.count};
 }
@@ -47,8 +45,6 @@ DatasetInfo describe_simulated_floors(const char* name, const char* title, std::
           .title = title,
           .source = "simulated depth images of an Intel RealSense D435i over floors with obstacles",
           .licence = "MIT",
-          .sha256 = {},
-          .area = std::nullopt,
           .members = count,
           .own_points = true};
 }
@@ -58,8 +54,6 @@ DatasetInfo describe_recorded_floors(std::size_t count) {
           .title = "Recorded floor",
           .source = "recordings in a folder of the user's",
           .licence = "the recordings' own",
-          .sha256 = {},
-          .area = std::nullopt,
           .members = count,
           .own_points = true};
 }
@@ -70,7 +64,6 @@ DatasetInfo describe_degenerate(const DegenerateInput& input) {
           .title = input.title,
           .source = "Made for this project: points that break assumptions",
           .licence = "MIT",
-          .sha256 = {},
           .area = area > 0 ? std::optional(area) : std::nullopt,
           .own_points = true};
 }
@@ -80,8 +73,6 @@ DatasetInfo describe_zoo(const zoo::Case& one) {
           .title = one.title,
           .source = "Made for this project after the description in " + one.citation,
           .licence = "MIT",
-          .sha256 = {},
-          .area = std::nullopt,
           .own_points = true};
 }
 
@@ -90,8 +81,6 @@ DatasetInfo describe_real(const real::Source& source) {
           .title = source.title,
           .source = "Debian's package " + source.package + ": " + source.object,
           .licence = source.licence,
-          .sha256 = {},
-          .area = std::nullopt,
           .own_points = true};
 }
 

@@ -40,9 +40,10 @@ struct DatasetInfo {
   std::string title;   ///< as printed in tables: "California"; of one member
   std::string source;  ///< who made the data
   std::string licence;
-  std::string sha256;  ///< of the shape's file, lower-case hex; empty when there is no single file
-  /// Of the shape without holes, squared units of the points; none: a family, or points without a shape.
-  std::optional<double> area;
+  std::string sha256 = {};  ///< of the shape's file, lower-case hex; empty when there is no single file
+  /// Of the shape without holes, squared units of the points; none: a family, the zoo, or points without a
+  /// shape.
+  std::optional<double> area = {};
   bool has_holes_variant = false;
   std::size_t members = 0;  ///< of a family; 0: one shape
   bool own_points =

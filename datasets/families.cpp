@@ -26,7 +26,6 @@ ShapeFamily star_family() {
           .licence = "MIT",
           .count = kStarPolygons,
           .holes = HoleParameters{.count = 5, .radius = 7.5, .seed = 2021},
-          .feature = {},
           .make = star_polygon};
 }
 
@@ -37,8 +36,6 @@ ShapeFamily tangled_family(const char* title, const char* source) {
           .source = source,
           .licence = "MIT",
           .count = tangled_count(kKind),
-          .holes = std::nullopt,
-          .feature = {},
           .make = [](std::size_t index) { return tangled_shape(kKind, index); }};
 }
 
@@ -56,7 +53,6 @@ ShapeFamily graded_family(const GradedShape& shape) {
                     " is the member's number in spacings of 2000 points",
           .licence = "MIT",
           .count = kGradedMembers,
-          .holes = std::nullopt,
           .feature = shape.feature,
           .make = make};
 }
@@ -84,8 +80,6 @@ std::vector<ShapeFamily> make_families() {
        .source = "Drawn for this project: Voronoi cells with bent sides, which touch each other",
        .licence = "MIT",
        .count = kTissueCells,
-       .holes = std::nullopt,
-       .feature = {},
        .make = tissue_cell});
   for (ShapeFamily& family : world_families()) families.push_back(std::move(family));
   for (const GradedShape& shape : graded_shapes()) families.push_back(graded_family(shape));

@@ -20,10 +20,10 @@ struct ShapeFamily {
   std::string licence;    ///< of the shapes
   std::size_t count = 0;  ///< >= 1
   /// None: no variants with holes. The seed is the family's; each shape derives its own.
-  std::optional<HoleParameters> holes;
+  std::optional<HoleParameters> holes = {};
   /// What the member's number, index + 1, measures ("radius", see stress_shapes.hpp): then the members are
   /// one shape at several levels. Empty: each member is a shape of its own.
-  std::string feature;
+  std::string feature = {};
   /// The shape without added holes; std::invalid_argument when `index` is not below count.
   std::function<polylidar::MultiPolygon(std::size_t index)> make;
 };

@@ -86,10 +86,6 @@ void parse_object(const json& object, MultiPolygon& shape) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// What `parse` makes of the file's document, with errors that name the file.
 template <typename Parse>
 auto read_document(const std::filesystem::path& path, const Parse& parse) {

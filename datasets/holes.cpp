@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "datasets/point_locator.hpp"
@@ -46,16 +47,6 @@ bool is_clear_of(const MultiPolygon& shape, const Point& centre, double distance
   });
 }
 
-Ring clockwise_circle(const Point& centre, double radius) {
-  static const std::array<Point, kHoleCorners> directions = hole_directions();
-  Ring ring;
-  ring.reserve(kHoleCorners);
-  for (std::size_t i = kHoleCorners; i-- > 0;) {
-    ring.push_back({centre.x + radius * directions[i].x, centre.y + radius * directions[i].y});
-  }
-  return ring;
-}
-
 /// Draws centres until one fits, and cuts the hole out of the polygon it lies in. `locators`: one for each
 /// polygon, without the new holes; a centre inside one of these is nearer than `radius` to its boundary
 /// anyway.
@@ -68,8 +59,9 @@ void cut_hole(MultiPolygon& shape, const std::vector<PointLocator>& locators, co
     const auto home = std::find_if(locators.begin(), locators.end(),
                                    [&](const PointLocator& locator) { return locator.contains(centre); });
     if (home == locators.end() || !is_clear_of(shape, centre, 2 * radius)) continue;
-    shape[static_cast<std::size_t>(home - locators.begin())].holes.push_back(
-        clockwise_circle(centre, radius));
+    Ring hole = circle_ring(centre, radius);
+    std::reverse(hole.begin(), hole.end());
+    shape[static_cast<std::size_t>(home - locators.begin())].holes.push_back(std::move(hole));
     return;
   }
   std::ostringstream message;
@@ -100,6 +92,15 @@ std::array<Point, kHoleCorners> hole_directions() {
     directions[i] = {-quarter_before.y, quarter_before.x};
   }
   return directions;
+}
+
+Ring circle_ring(const Point& centre, double radius) {
+  static const std::array<Point, kHoleCorners> directions = hole_directions();
+  Ring ring;
+  for (const Point& direction : directions) {
+    ring.push_back({centre.x + radius * direction.x, centre.y + radius * direction.y});
+  }
+  return ring;
 }
 
 MultiPolygon with_circular_holes(const MultiPolygon& shape, std::size_t count, double radius,

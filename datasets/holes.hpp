@@ -20,6 +20,9 @@ inline constexpr std::size_t kMaxHoleTries = 1'000'000;
 /// correctly, so they are the same on every machine.
 std::array<polylidar::Point, kHoleCorners> hole_directions();
 
+/// The regular 64-gon whose corners are `radius` from `centre`, counter-clockwise.
+polylidar::Ring circle_ring(const polylidar::Point& centre, double radius);
+
 /// `shape` with `count` more holes: regular 64-gons of circumradius `radius`, clockwise, after the holes a
 /// polygon already has. Centres are uniform over the places that are left: drawn one after another from the
 /// bounding box and kept when they lie inside the shape and at least 2 * radius from every boundary, the

@@ -31,7 +31,7 @@ struct ShapeInfo {
   std::optional<HoleParameters> holes;  ///< none: the shape has no variant with holes
 };
 
-/// The folder with this project's own shapes: datasets/shapes of the source tree the library was built from.
+/// The folder with this project's own shapes: datasets/shapes in data_folder().
 std::filesystem::path default_data_directory();
 
 /// The shapes that `data_directory`/manifest.json lists, in its order. Throws std::runtime_error naming the

@@ -110,8 +110,8 @@ struct StressKind {
 /// transcripts  Molecules that a microscope finds in a cell: each of the cell's own is with a probability of
 ///              a half of a Gaussian round a nucleus, of standard deviation 0.2 sqrt(A) round a point uniform
 ///              in the shape, and else uniform. `level` percent of all points (rounded to a whole number) are
-///              neighbours' that were taken for this cell's: uniform points moved by a Gaussian of standard
-///              deviation 2 h until they lie outside the shape; they are the last ones.
+///              neighbours' that were taken for this cell's: uniform points which a Gaussian of standard
+///              deviation 2 h moves out of the shape; they are the last ones.
 const std::vector<StressKind>& stress_kinds();
 
 /// A kind at a level.

@@ -8,7 +8,6 @@
 namespace hullbench {
 
 using polylidar::MultiPolygon;
-using polylidar::Point;
 using polylidar::Ring;
 
 namespace {
@@ -18,15 +17,6 @@ Ring box(double left, double bottom, double right, double top) {
   return {{left, bottom}, {right, bottom}, {right, top}, {left, top}};
 }
 
-/// Counter-clockwise.
-Ring disc(const Point& centre, double radius) {
-  Ring ring;
-  for (const Point& direction : hole_directions()) {
-    ring.push_back({centre.x + radius * direction.x, centre.y + radius * direction.y});
-  }
-  return ring;
-}
-
 Ring clockwise(Ring ring) {
   std::reverse(ring.begin(), ring.end());
   return ring;
@@ -34,7 +24,7 @@ Ring clockwise(Ring ring) {
 
 /// Area of a disc of radius 1.
 double disc_area() {
-  static const double area = polylidar::signed_area(disc({0, 0}, 1));
+  static const double area = polylidar::signed_area(circle_ring({0, 0}, 1));
   return area;
 }
 
@@ -42,14 +32,14 @@ MultiPolygon pierced(double radius) {
   const double side = std::sqrt(kGradedArea + 4 * disc_area() * radius * radius);
   std::vector<Ring> holes;
   for (const double x : {side / 4, 3 * side / 4}) {
-    for (const double y : {side / 4, 3 * side / 4}) holes.push_back(clockwise(disc({x, y}, radius)));
+    for (const double y : {side / 4, 3 * side / 4}) holes.push_back(clockwise(circle_ring({x, y}, radius)));
   }
   return {{box(0, 0, side, side), holes}};
 }
 
 MultiPolygon annulus(double radius) {
   const double outer = std::sqrt(kGradedArea / disc_area() + radius * radius);
-  return {{disc({0, 0}, outer), {clockwise(disc({0, 0}, radius))}}};
+  return {{circle_ring({0, 0}, outer), {clockwise(circle_ring({0, 0}, radius))}}};
 }
 
 MultiPolygon windows(double radius) {
@@ -118,7 +108,7 @@ MultiPolygon discs(double gap) {
   const double pitch = 2 * radius + gap;
   MultiPolygon shape;
   for (const double y : {0.0, pitch, 2 * pitch}) {
-    for (const double x : {0.0, pitch, 2 * pitch}) shape.push_back({disc({x, y}, radius), {}});
+    for (const double x : {0.0, pitch, 2 * pitch}) shape.push_back({circle_ring({x, y}, radius), {}});
   }
   return shape;
 }

@@ -4,12 +4,8 @@
 
 #include "datasets/random.hpp"
 #include "datasets/tangled/comb.hpp"
-#include "datasets/tangled/nested.hpp"
-#include "datasets/tangled/partition.hpp"
-#include "datasets/tangled/parts.hpp"
+#include "datasets/tangled/draws.hpp"
 #include "datasets/tangled/ring_steps.hpp"
-#include "datasets/tangled/spiral.hpp"
-#include "datasets/tangled/walk.hpp"
 
 namespace hullbench {
 

@@ -71,8 +71,6 @@ std::vector<ShapeFamily> world_families() {
                         .source = set.at("source").get<std::string>(),
                         .licence = set.at("licence").get<std::string>(),
                         .count = count,
-                        .holes = std::nullopt,
-                        .feature = {},
                         .make = [file](std::size_t index) { return file->shape(index); }});
   }
   return families;

@@ -2,7 +2,6 @@
 #include <png.h>
 
 #include <cstdint>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -32,6 +31,27 @@ std::string to_geojson(const MultiPolygon& shape) {
     polygons.push_back(rings);
   }
   return json{{"type", "MultiPolygon"}, {"coordinates", polygons}}.dump();
+}
+
+std::string to_text(const Intrinsics& camera) {
+  json text;
+  text["width"] = camera.width;
+  text["height"] = camera.height;
+  text["fx"] = camera.fx;
+  text["fy"] = camera.fy;
+  text["ppx"] = camera.ppx;
+  text["ppy"] = camera.ppy;
+  text["depth_unit"] = camera.depth_unit;
+  return text.dump();
+}
+
+void write_depth_png(const fs::path& path, const DepthImage& image) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = static_cast<png_uint_32>(image.intrinsics.width);
+  png.height = static_cast<png_uint_32>(image.intrinsics.height);
+  png.format = PNG_FORMAT_LINEAR_Y;
+  ASSERT_NE(png_image_write_to_file(&png, path.c_str(), 0, image.counts.data(), 0, nullptr), 0);
 }
 
 const MultiPolygon kTriangle{{.shell = {{0, 0}, {4, 0}, {0, 3}}, .holes = {}}};
@@ -102,7 +122,7 @@ TEST_F(Recordings, SimulatedSceneComesBackBitForBit) {
     const DepthImage image = simulate_depth(index, 5);
     const FloorScene scene = simulate_floor(index, 5);
     write_depth_png(scene_ / "depth.png", image);
-    write_intrinsics(scene_ / "intrinsics.json", image.intrinsics);
+    write("intrinsics.json", to_text(image.intrinsics));
     write("gt.geojson", to_geojson(scene.ground_truth));
     const FloorScene loaded = load_recording(scene_);
     EXPECT_EQ(loaded.points, scene.points);
@@ -276,20 +296,6 @@ TEST_F(Recordings, PngsOfOtherKindsAreRefused) {
         png_error(bytes_of(scene_ / "other.png")),
         "/depth.png is not a usable depth image: it is not 16-bit grey; save the counts as 16-bit grey");
   }
-}
-
-TEST_F(Recordings, FilesThatCannotBeWrittenAreNamed) {
-  const fs::path absent = folder_ / "absent" / "depth.png";
-  const auto error_of = [](const auto& action) { return complaint_of<std::exception>(action); };
-  EXPECT_EQ(error_of([&] { write_depth_png(absent, small_image()); }),
-            "cannot write " + absent.string() +
-                " (No such file or directory); check that its folder exists and has room");
-  EXPECT_EQ(error_of([&] { write_intrinsics(absent, small_image().intrinsics); }),
-            "cannot write " + absent.string() + "; check that its folder exists and has room");
-  DepthImage image = small_image();
-  image.counts.pop_back();
-  EXPECT_EQ(error_of([&] { write_depth_png(folder_ / "a.png", image); }),
-            "a depth image must have a count for each of its width * height pixels");
 }
 
 TEST_F(Recordings, AreListedByName) {

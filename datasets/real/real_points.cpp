@@ -1,14 +1,11 @@
 #include "datasets/real/real_points.hpp"
 
-#include <sys/wait.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -31,24 +28,14 @@ fs::path dpkg_folder(const fs::path& root) {
   return root / "var/lib/dpkg";
 }
 
-/// The folder of R's package that Debian's brings: "spData" for r-cran-spdata. The names differ in their
-/// letters' case, which Debian's do not tell.
-fs::path r_folder(const std::string& package, const fs::path& root) {
+/// The first file of an installed package whose path ends so.
+fs::path find_file(const std::string& package, const std::string& ending, const fs::path& root) {
   std::ifstream list(dpkg_folder(root) / "info" / (package + ".list"));
-  const std::string mark = "/DESCRIPTION";
   for (std::string line; std::getline(list, line);) {
-    if (line.ends_with(mark)) return root / line.substr(1, line.size() - mark.size() - 1);
+    if (line.ends_with(ending)) return root / line.substr(1);
   }
-  throw std::runtime_error("the package " + package + " has no R package in it; install it anew");
-}
-
-fs::path cloud_archive(const fs::path& root) {
-  std::ifstream list(dpkg_folder(root) / "info" / (std::string(kCloudPackage) + ".list"));
-  for (std::string line; std::getline(list, line);) {
-    if (line.ends_with("/data.tar.gz")) return root / line.substr(1);
-  }
-  throw std::runtime_error(std::string("the package ") + kCloudPackage +
-                           " has no data.tar.gz in it; install it anew");
+  throw std::runtime_error("the package " + package + " has no file " + ending.substr(1) +
+                           "; install it anew");
 }
 
 /// As a word of the shell's.
@@ -73,10 +60,12 @@ std::string reader_command(const Source& source, const fs::path& root) {
   const fs::path scripts = data_folder() / "datasets" / "real";
   if (source.package == kCloudPackage) {
     return "python3 -B " + quoted((scripts / "read_cloud.py").string()) + " " +
-           quoted(cloud_archive(root).string()) + quoted_words(source.object);
+           quoted(find_file(source.package, "/data.tar.gz", root).string()) + quoted_words(source.object);
   }
-  return "Rscript --vanilla " + quoted((scripts / "read_r.R").string()) + " " +
-         quoted(r_folder(source.package, root).string()) + " " + quoted(source.object);
+  // "spData" of Debian's r-cran-spdata: the names differ in their letters' case, which Debian's do not tell.
+  const fs::path folder = find_file(source.package, "/DESCRIPTION", root).parent_path();
+  return "Rscript --vanilla " + quoted((scripts / "read_r.R").string()) + " " + quoted(folder.string()) +
+         " " + quoted(source.object);
 }
 
 /// The last line of `text` that has something in it.

@@ -1,5 +1,3 @@
-#include <utility>
-
 #include "datasets/real/real_points.hpp"
 
 namespace hullbench::real {

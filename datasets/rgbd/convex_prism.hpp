@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "datasets/rgbd/vector3.hpp"
 #include "polylidar/geometry.hpp"

@@ -1,7 +1,5 @@
 #include "datasets/rgbd/depth_image.hpp"
 
-#include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
@@ -66,22 +64,6 @@ Intrinsics read_intrinsics(const std::filesystem::path& path) {
           .ppx = read_number(document, path, "ppx"),
           .ppy = read_number(document, path, "ppy"),
           .depth_unit = read_positive(document, path, "depth_unit", "the metres a count, above 0")};
-}
-
-void write_intrinsics(const std::filesystem::path& path, const Intrinsics& intrinsics) {
-  const nlohmann::ordered_json document = {{"width", intrinsics.width},
-                                           {"height", intrinsics.height},
-                                           {"fx", intrinsics.fx},
-                                           {"fy", intrinsics.fy},
-                                           {"ppx", intrinsics.ppx},
-                                           {"ppy", intrinsics.ppy},
-                                           {"depth_unit", intrinsics.depth_unit}};
-  std::ofstream file(path, std::ios::binary);
-  file << document.dump(2) << '\n';
-  file.close();
-  if (!file) {
-    throw std::runtime_error("cannot write " + path.string() + "; check that its folder exists and has room");
-  }
 }
 
 }  // namespace hullbench

@@ -1,7 +1,6 @@
 // A depth camera's image and how its pixels look into space.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <vector>
@@ -45,17 +44,9 @@ struct DepthImage {
 /// PNG, not 16-bit grey, not of the camera's size, or damaged.
 DepthImage read_depth_png(const std::filesystem::path& path, const Intrinsics& intrinsics);
 
-/// The counts as a 16-bit grey PNG. Throws std::invalid_argument when there are not width * height counts,
-/// std::runtime_error when the file cannot be written.
-void write_depth_png(const std::filesystem::path& path, const DepthImage& image);
-
 /// A JSON object with the members of Intrinsics by their names. Throws std::runtime_error naming the file,
 /// the member and what to give when the file is missing, not JSON, or a member is missing or out of its
 /// range.
 Intrinsics read_intrinsics(const std::filesystem::path& path);
-
-/// What read_intrinsics reads, with every bit of the numbers. Throws std::runtime_error when the file cannot
-/// be written.
-void write_intrinsics(const std::filesystem::path& path, const Intrinsics& intrinsics);
 
 }  // namespace hullbench

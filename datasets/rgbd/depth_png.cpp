@@ -3,7 +3,6 @@
 // caller.
 #include <png.h>
 
-#include <algorithm>
 #include <array>
 #include <csetjmp>
 #include <cstring>
@@ -116,25 +115,6 @@ DepthImage read_depth_png(const std::filesystem::path& path, const Intrinsics& i
     image.counts[i] = static_cast<std::uint16_t>(stored[2 * i] * 256U + stored[2 * i + 1]);
   }
   return image;
-}
-
-void write_depth_png(const std::filesystem::path& path, const DepthImage& image) {
-  const Intrinsics& camera = image.intrinsics;
-  const bool whole =
-      camera.width >= 1 && camera.height >= 1 &&
-      image.counts.size() == static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
-  if (!whole) {
-    throw std::invalid_argument("a depth image must have a count for each of its width * height pixels");
-  }
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  png.width = static_cast<png_uint_32>(camera.width);
-  png.height = static_cast<png_uint_32>(camera.height);
-  png.format = PNG_FORMAT_LINEAR_Y;
-  if (png_image_write_to_file(&png, path.c_str(), 0, image.counts.data(), 0, nullptr) == 0) {
-    throw std::runtime_error("cannot write " + path.string() + " (" + png.message +
-                             "); check that its folder exists and has room");
-  }
 }
 
 }  // namespace hullbench

@@ -42,8 +42,8 @@ std::vector<polylidar::Point> lose_points(const std::vector<polylidar::Point>& p
 using Scan = std::function<std::vector<polylidar::Point>(double pitch, Random& random)>;
 
 /// The points of `scan`, of which the pitch is chosen so that there are `n` and at most a twentieth and 8
-/// more, and the ones too many are lost at random. Every scan that is tried has the same random numbers,
-/// those of `seed`. Throws as UniformPoints for a shape without area.
+/// more, or after 20 tries however many more, and the ones too many are lost at random. Every scan that is
+/// tried has the same random numbers, those of `seed`. Throws as UniformPoints for a shape without area.
 std::vector<polylidar::Point> scan_exactly(const polylidar::MultiPolygon& shape, std::size_t n,
                                            std::uint64_t seed, const Scan& scan);
 

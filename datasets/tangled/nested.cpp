@@ -1,9 +1,8 @@
-#include "datasets/tangled/nested.hpp"
-
 #include <algorithm>
 #include <cstddef>
 
 #include "datasets/portable_math.hpp"
+#include "datasets/tangled/draws.hpp"
 #include "datasets/tangled/ring_steps.hpp"
 #include "datasets/tangled_shapes.hpp"
 

@@ -1,11 +1,10 @@
-#include "datasets/tangled/partition.hpp"
-
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <vector>
 
+#include "datasets/tangled/draws.hpp"
 #include "datasets/tangled/ring_steps.hpp"
 #include "datasets/tangled_shapes.hpp"
 

@@ -1,11 +1,10 @@
-#include "datasets/tangled/parts.hpp"
-
 #include <algorithm>
 #include <cstddef>
 #include <vector>
 
 #include "datasets/portable_math.hpp"
 #include "datasets/tangled/comb.hpp"
+#include "datasets/tangled/draws.hpp"
 #include "datasets/tangled/ring_steps.hpp"
 #include "datasets/tangled_shapes.hpp"
 

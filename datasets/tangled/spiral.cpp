@@ -1,9 +1,8 @@
-#include "datasets/tangled/spiral.hpp"
-
 #include <algorithm>
 #include <cstddef>
 
 #include "datasets/portable_math.hpp"
+#include "datasets/tangled/draws.hpp"
 
 namespace hullbench {
 

@@ -1,9 +1,8 @@
-#include "datasets/tangled/walk.hpp"
-
 #include <array>
 #include <cstddef>
 #include <vector>
 
+#include "datasets/tangled/draws.hpp"
 #include "datasets/tangled/ring_steps.hpp"
 #include "datasets/tangled_shapes.hpp"
 

@@ -77,9 +77,6 @@ def npm_file(package, file):
     return folder / file, {"name": package, "version": version}
 
 
-# ---- outlines ----------------------------------------------------------------------------------------------
-
-
 def polygons_of(shape):
     return [part for part in getattr(shape, "geoms", [shape]) if isinstance(part, Polygon) and not part.is_empty]
 
@@ -138,9 +135,6 @@ def traced(heights, level):
     for ring in rings:
         region = region.symmetric_difference(ring.buffer(0))
     return region
-
-
-# ---- sources -----------------------------------------------------------------------------------------------
 
 
 class Topology:
@@ -369,9 +363,6 @@ SETS = [
     ("han", "Chinese character", 50, han, "Noto Serif CJK Bold (Adobe and Google)", OFL),
     ("symbol", "Symbol", 40, symbols, "Noto Sans Symbols 2 (Google)", OFL),
 ]
-
-
-# ---- output ------------------------------------------------------------------------------------------------
 
 
 def plain(value):

@@ -20,8 +20,6 @@ Point on_circle(Point centre, double radius, double turns) {
   return {centre.x + radius * direction.x, centre.y + radius * direction.y};
 }
 
-}  // namespace
-
 /// Circles around twelve places, in degrees, every point twice with up to 1e-9 between.
 Input arcs_in_degrees() {
   Input input;
@@ -177,6 +175,23 @@ Input repeated_stops() {
     }
   }
   return input;
+}
+
+}  // namespace
+
+Generators close_points() {
+  return {{"zoo-nts-716", arcs_in_degrees},
+          {"zoo-geos-754", coinciding_arcs},
+          {"zoo-qgis-63868", three_close_two_far},
+          {"zoo-jts-298", last_bit_twins},
+          {"zoo-jts-321", short_edge},
+          {"zoo-delaunator-94", nearly_equal_pair},
+          {"zoo-jts-1121", buildings_in_degrees},
+          {"zoo-spatialeco-60", crowded_sites},
+          {"zoo-alpha-shapes-1", occurrences},
+          {"zoo-gdl-141", repeated_points},
+          {"zoo-hull-js-19", paused_track},
+          {"zoo-turf-333", repeated_stops}};
 }
 
 }  // namespace hullbench::zoo

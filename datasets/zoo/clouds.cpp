@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "datasets/portable_math.hpp"
 #include "datasets/zoo/generators.hpp"
 #include "datasets/zoo/tools.hpp"
@@ -9,6 +7,8 @@ namespace hullbench::zoo {
 using polylidar::MultiPolygon;
 using polylidar::Point;
 using polylidar::Ring;
+
+namespace {
 
 Input two_areas() {
   return sampled({{rectangle(187600, 6177300, 400, 250), {}}, {rectangle(188250, 6177800, 250, 300), {}}},
@@ -203,6 +203,27 @@ Input shuffled_outline() {
   Random random = numbers("shuffled outline");
   shuffle(input.points, random);
   return input;
+}
+
+}  // namespace
+
+Generators clouds() {
+  return {{"zoo-pdal-4563", two_areas},
+          {"zoo-pdal-3921", large_coordinates},
+          {"zoo-pdal-2508", thinned_degrees},
+          {"zoo-lasr-219", ponds},
+          {"zoo-lidr-757", blanked_tile},
+          {"zoo-pcl-1457", voxels},
+          {"zoo-jts-948", touching_squares},
+          {"zoo-baysor-103", cells},
+          {"zoo-hootenanny-4073", sparse_clusters},
+          {"zoo-concaveman-r-8", twenty_regions},
+          {"zoo-concaveman-24", roads},
+          {"zoo-geodan-1", gaussian_cluster},
+          {"zoo-hull-js-14", c_in_degrees},
+          {"zoo-concavity-2", raster_tile},
+          {"zoo-pgrouting-1603", street_nodes},
+          {"zoo-concaveman-cpp-8", shuffled_outline}};
 }
 
 }  // namespace hullbench::zoo

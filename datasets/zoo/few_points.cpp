@@ -9,6 +9,8 @@ namespace hullbench::zoo {
 using polylidar::Point;
 using polylidar::Ring;
 
+namespace {
+
 Input one_point() {
   return {{{431250.5, 5412873.25}}, {}};
 }
@@ -135,6 +137,29 @@ Input two_rows() {
                                    1000));
   }
   return input;
+}
+
+}  // namespace
+
+Generators few_points() {
+  return {{"zoo-qgis-65899", one_point},
+          {"zoo-turf-550", two_on_a_meridian},
+          {"zoo-libpysal-111", three_points},
+          {"zoo-merowech-1", four_corners},
+          {"zoo-hgeometry-209", three_on_a_line_and_one},
+          {"zoo-bl4ckb0ne-32", flat_triangle},
+          {"zoo-ironwallaby-8", zigzag_in_degrees},
+          {"zoo-concaveman-31", point_beside_a_hull_edge},
+          {"zoo-qgis-27442", nearly_on_an_edge},
+          {"zoo-georust-1124", thin_corner},
+          {"zoo-georust-792", square_and_rhombus},
+          {"zoo-shapely-541", last_bits},
+          {"zoo-scipy-14185", growing_heights},
+          {"zoo-openscad-2220", tiny_squares},
+          {"zoo-parry-49", tiny_numbers},
+          {"zoo-senhorsolar-1", ring_of_whole_numbers},
+          {"zoo-hull-js-11", one_sided_outline},
+          {"zoo-hull-js-6", two_rows}};
 }
 
 }  // namespace hullbench::zoo

@@ -10,6 +10,8 @@ using polylidar::MultiPolygon;
 using polylidar::Point;
 using polylidar::Ring;
 
+namespace {
+
 /// Five points in projected metres, the way turning by 1 to 2 degrees at each.
 Input bent_line() {
   Input input;
@@ -154,6 +156,24 @@ Input single_precision_triangle() {
     }
   }
   return input;
+}
+
+}  // namespace
+
+Generators flat_points() {
+  return {{"zoo-geos-719", bent_line},
+          {"zoo-geos-728", edge_bent_inwards},
+          {"zoo-jts-1002", narrow_strip},
+          {"zoo-shapely-1873", evenly_spaced_line},
+          {"zoo-shapely-1971", two_pairs_and_a_middle},
+          {"zoo-geos-946", flat_in_degrees},
+          {"zoo-jts-1061", thin_building},
+          {"zoo-sedona-1733", shallow_arc},
+          {"zoo-geos-1286", three_beside_an_axis},
+          {"zoo-shapely-555", one_far_along_the_line},
+          {"zoo-d3-delaunay-92", level_line},
+          {"zoo-cgal-8748", slanted_line},
+          {"zoo-georust-1028", single_precision_triangle}};
 }
 
 }  // namespace hullbench::zoo

@@ -27,8 +27,6 @@ Input lattice(Point origin, Point a, Point b, int columns, int rows) {
   return input;
 }
 
-}  // namespace
-
 Input tilted_lattice() {
   const Point a = unit_vector(302.328 / 360);
   return lattice({0, 0}, a, {-a.y, a.x}, 60, 60);
@@ -137,6 +135,17 @@ Input walls() {
     }
   }
   return input;
+}
+
+}  // namespace
+
+Generators lattices() {
+  return {{"zoo-delaunator-61", tilted_lattice},        {"zoo-delaunator-cpp-19", normalised_lattice},
+          {"zoo-geometry-10", quarter_lattice},         {"zoo-qhull-25", centimetres_far_away},
+          {"zoo-concaveman-28", flight_lines},          {"zoo-concaveman-1", isochrone_cells},
+          {"zoo-concaveman-cpp-5", pixel_ring},         {"zoo-delaunator-43", slanted_rows},
+          {"zoo-delaunator-13", seventeen_gon},         {"zoo-delabella-8", octagon},
+          {"zoo-delaunator-cpp-16", curve_in_an_image}, {"zoo-delaunator-cpp-28", walls}};
 }
 
 }  // namespace hullbench::zoo
