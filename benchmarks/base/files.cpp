@@ -8,6 +8,7 @@
 #include <iterator>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 namespace hullbench {
 
@@ -15,6 +16,11 @@ std::optional<std::string> read_text_file(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in.is_open() || fs::is_directory(path)) return std::nullopt;
   return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+std::string required_text(const fs::path& path) {
+  if (std::optional<std::string> text = read_text_file(path)) return std::move(*text);
+  throw std::runtime_error("Cannot read " + path.string() + ".");
 }
 
 void write_text_file(const fs::path& path, const std::string& text) {

@@ -13,6 +13,9 @@ namespace hullbench {
 /// The bytes of a file; none of a folder and where there is nothing to be read.
 std::optional<std::string> read_text_file(const fs::path& path);
 
+/// The same; throws std::runtime_error naming the file when there are none.
+std::string required_text(const fs::path& path);
+
 /// Writes a file whole or not at all: a temporary file beside it is renamed. Throws std::runtime_error naming
 /// the file when it cannot be written.
 void write_text_file(const fs::path& path, const std::string& text);

@@ -33,7 +33,7 @@ class JsonSchema {
   JsonSchema& operator=(const JsonSchema&) = delete;
 
   /// Empty when `document` is valid. A value is said to be at fault where it stands, and not once more with
-  /// every object round it. Integers above 2^63 - 1 count as negative.
+  /// every object round it.
   std::vector<SchemaFault> faults(const json& document) const;
 
  private:

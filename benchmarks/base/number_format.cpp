@@ -6,11 +6,6 @@
 #include <cmath>
 
 namespace hullbench {
-namespace {
-
-constexpr int kMostDecimals = 9;
-
-}  // namespace
 
 std::string fixed(double value, int decimals) {
   // Room for the largest double written out, 309 digits, and the decimals.
@@ -21,6 +16,7 @@ std::string fixed(double value, int decimals) {
 }
 
 int decimals_of(double value) {
+  constexpr int kMostDecimals = 9;
   if (!(value > 0) || std::isinf(value)) return 0;
   const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(value))), 0, kMostDecimals);
   // Rounding may carry into a further digit: 9.999 is "10.0", not "10.00".

@@ -4,11 +4,10 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <fstream>
-#include <stdexcept>
 #include <utility>
 
 #include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/files.hpp"
 #include "benchmarks/base/interrupt.hpp"
 #include "benchmarks/base/parallel.hpp"
 #include "benchmarks/base/scratch_folder.hpp"
@@ -50,13 +49,10 @@ void add_methods_of_manifests(Question& question, const run::MethodCatalog& cata
 /// The points as the recording of a user, which the plan `real` takes beside its own sets.
 void write_recording(std::span<const Point> points, const fs::path& scene) {
   fs::create_directories(scene);
-  const fs::path file = scene / "points.txt";
   std::string text;
   for (const Point& point : points)
     text += polylidar::tool::shortest(point.x) + " " + polylidar::tool::shortest(point.y) + "\n";
-  std::ofstream out(file, std::ios::binary);
-  out << text << std::flush;
-  if (!out) throw std::runtime_error("cannot write " + file.string() + "; is the disk full?");
+  write_text_file(scene / "points.txt", text);
 }
 
 bool is_of(const record::RunRecord& record, const plan::PlanMethod& entry) {

@@ -33,12 +33,6 @@ struct TestAdapterCommand {
   std::int64_t mem_limit_mib = 4096;  ///< address space of the worker
 };
 
-std::string read_text(const fs::path& file) {
-  const std::optional<std::string> text = read_text_file(file);
-  if (!text || text->empty()) throw std::runtime_error("cannot read " + file.string());
-  return *text;
-}
-
 std::string replace_all(std::string text, const std::string& what, const std::string& with) {
   for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size())) {
     text.replace(at, what.size(), with);
@@ -58,7 +52,7 @@ std::vector<NewFile> cpp_files(const NewAdapterCommand& command) {
   const fs::path folder = command.out.value_or(data_folder() / "adapters");
   const std::string line = "add_adapter(NAME " + command.name + " TITLE \"" + command.name + "\")\n";
   return {{folder / (command.name + ".cpp"),
-           replace_all(read_text(kSkeletons / "skeleton.cpp.in"), "@NAME@", command.name)},
+           replace_all(required_text(kSkeletons / "skeleton.cpp.in"), "@NAME@", command.name)},
           {folder / "adapters.cmake", line, true}};
 }
 
@@ -70,7 +64,7 @@ std::vector<NewFile> script_files(const NewAdapterCommand& command) {
   const std::string script = command.name + "_worker" + ending;
   const std::string words = (python ? R"("python3", "./)" : R"("node", "./)") + script + "\"";
   const std::string helper = "hullbench_worker" + ending;
-  std::string manifest = replace_all(read_text(kSkeletons / "skeleton.json"), "@NAME@", command.name);
+  std::string manifest = replace_all(required_text(kSkeletons / "skeleton.json"), "@NAME@", command.name);
   manifest = replace_all(manifest, "@COMMAND@", words);
   manifest = replace_all(manifest, "@JIT@", python ? "false" : "true");
   manifest =
@@ -79,8 +73,8 @@ std::vector<NewFile> script_files(const NewAdapterCommand& command) {
                            "install numpy"
                          : "sudo apt-get install nodejs");
   return {{folder / (command.name + ".json"), manifest},
-          {folder / script, read_text(kSkeletons / ("skeleton" + ending))},
-          {folder / helper, read_text(kHelpers / helper), false, true}};
+          {folder / script, required_text(kSkeletons / ("skeleton" + ending))},
+          {folder / helper, required_text(kHelpers / helper), false, true}};
 }
 
 void check_name(const std::string& name) {
@@ -121,9 +115,10 @@ void write_all(const std::vector<NewFile>& files) {
                              error.message());
   }
   for (const NewFile& file : files) {
-    const bool added_to = file.append && fs::exists(file.path);
-    if (!(file.shared && fs::exists(file.path))) write(file);
-    std::cout << (added_to ? "added a line to " : "wrote ") << file.path.string() << "\n";
+    const bool is_there = fs::exists(file.path);
+    if (file.shared && is_there) continue;
+    write(file);
+    std::cout << (is_there ? "added a line to " : "wrote ") << file.path.string() << "\n";
   }
 }
 

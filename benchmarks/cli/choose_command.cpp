@@ -278,7 +278,7 @@ void add_choose(CLI::App& app, Action& action) {
   options
       .add_option("--n", command->n,
                   "Give all methods this many points at random if the file has more; the default is " +
-                      std::to_string(kMostPoints) + " for slow methods, with --write all")
+                      std::to_string(kMostPoints) + " for slow methods, and all points with --write")
       ->check(CLI::Range(std::size_t{3}, std::size_t{1} << 32U));
   options.add_option("--seed", command->seed, "Seed of the random choice of points and of halves")
       ->check(CLI::NonNegativeNumber)

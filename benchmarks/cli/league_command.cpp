@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <iostream>
 
-#include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/base/names.hpp"
 #include "benchmarks/cli/options.hpp"
+#include "benchmarks/cli/run_folder.hpp"
 #include "benchmarks/league/league.hpp"
 #include "benchmarks/league/league_report.hpp"
 #include "benchmarks/record/stored_run.hpp"
@@ -23,9 +23,7 @@ struct LeagueCommand {
 ExitCode print_league(const LeagueCommand& command) {
   std::vector<json> reports;
   for (const fs::path& folder : command.runs) {
-    if (!fs::is_directory(folder))
-      throw ConfigurationError("there is no run in " + folder.string() +
-                               "; give the folder of a run or suite");
+    check_run_folder(folder);
     const auto runs = record::is_suite(folder) ? record::suite_runs(folder) : std::vector{folder};
     for (const fs::path& run : runs) reports.push_back(record::load_run(run));
   }

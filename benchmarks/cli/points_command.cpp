@@ -51,7 +51,7 @@ std::string gibibytes(double bytes) {
   throw std::runtime_error(
       what + " for " + std::to_string(command.count) + " points of '" + command.dataset +
       "', which are drawn all at once; ask for fewer of them, or for uniform ones, which "
-      "take none");
+      "are written as they are drawn");
 }
 
 /// What is written one after the other: a data set, or each member of a family, whose label is its number.
@@ -85,23 +85,20 @@ void check_memory(const PointsCommand& command, std::size_t parts) {
 /// What the work is at, from its first second on.
 class PointsProgress {
  public:
-  explicit PointsProgress(std::size_t points) : points_(points) {}
-
-  void show(const char* doing, std::size_t done) {
+  void show(const char* doing, std::size_t done, std::size_t points) {
     throw_if_interrupted();
     using namespace std::chrono_literals;
     if (std::chrono::steady_clock::now() - start_ < 1s) return;
-    status_.show(std::string(doing) + ": " + std::to_string(done) + " of " + std::to_string(points_) +
+    status_.show(std::string(doing) + ": " + std::to_string(done) + " of " + std::to_string(points) +
                  " points");
   }
   /// The samplers do not say how far they are.
-  void show_drawing() {
+  void show_drawing(std::size_t points) {
     constexpr std::size_t kAboutASecond = 300'000;
-    if (points_ >= kAboutASecond) status_.show("drawing " + std::to_string(points_) + " points");
+    if (points >= kAboutASecond) status_.show("drawing " + std::to_string(points) + " points");
   }
 
  private:
-  std::size_t points_;
   StatusLine status_{std::cerr, is_terminal()};
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
@@ -151,7 +148,7 @@ Box bounds_of(LabelledStream points, PointsProgress& progress) {
   const Point first = points.next().first;
   Box box{first, first};
   for (std::size_t i = 1; i < points.size(); ++i) {
-    if (i % kBlock == 0) progress.show("measuring", i);
+    if (i % kBlock == 0) progress.show("measuring", i, points.size());
     const Point point = points.next().first;
     box = {{std::min(box.min.x, point.x), std::min(box.min.y, point.y)},
            {std::max(box.max.x, point.x), std::max(box.max.y, point.y)}};
@@ -165,8 +162,8 @@ ExitCode write_points(const PointsCommand& command) {
   polylidar::tool::check_point_count(format, command.count * parts.size());
   check_output_place(command.out);
   check_memory(command, parts.size());
-  PointsProgress progress(command.count * parts.size());
-  if (!is_streamed(command.dataset)) progress.show_drawing();
+  PointsProgress progress;
+  if (!is_streamed(command.dataset)) progress.show_drawing(command.count * parts.size());
   LabelledStream points(parts, command);
   polylidar::tool::PointFileFacts facts{
       .count = points.size(), .has_labels = parts.front().label > 0, .bounds = {}};
@@ -177,7 +174,7 @@ ExitCode write_points(const PointsCommand& command) {
   std::string bytes = encoder.header();
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (i % kBlock == 0) {
-      progress.show("writing", i);
+      progress.show("writing", i, points.size());
       output.write(bytes);
       bytes.clear();
     }

@@ -1,4 +1,4 @@
-# Writes OUTPUT, the definition of hullbench::revision() for the checkout SOURCE; run at every build, touches the file only when it
+# Writes OUTPUT, the definition of hullbench::cli::revision() for the checkout SOURCE; run at every build, touches the file only when it
 # changes. The program must say what it was built from, not what lies in the folder when it runs.
 cmake_minimum_required(VERSION 3.25)
 

@@ -138,7 +138,7 @@ void say_what_goes_on(const run::RunDirectory& directory, const Experiment& expe
   std::cerr << "hullbench: going on with the run in " << directory.path().string() << ": "
             << finished - missing << " of " << planned
             << " runs are finished and not measured again (--force starts anew)";
-  if (missing > 0) std::cerr << "; tried again because the method was not installed: " << missing;
+  if (missing > 0) std::cerr << "; tried again because a package was missing: " << missing;
   std::cerr << "\n";
 }
 
@@ -294,12 +294,11 @@ class Measuring {
 
 ExitCode measure_one(const RunCommand& command, const Experiment& experiment,
                      const run::MethodCatalog& catalog) {
-  const json header = describe_run(experiment, command, catalog);
   std::vector<Task> tasks(1);
   Task& task = tasks.front();
   task.experiment = &experiment;
-  task.header = header;
-  task.directory = run::open_run_directory(header, {command.out, command.force, kResults});
+  task.header = describe_run(experiment, command, catalog);
+  task.directory = run::open_run_directory(task.header, {command.out, command.force, kResults});
   task.folder = task.directory->path();
   if (!command.out) run::point_latest_to(task.folder, kResults);
   if (!Measuring(command, catalog, tasks).measure()) return exit_code(task.result);

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -147,17 +148,17 @@ ExitCode check(const CheckCommand& command) {
     std::cout << "- " << (verdict.kept ? "ok" : "FAIL") << ": " << verdict.name << ": " << verdict.words
               << "\n";
   };
-  run::CheckedSubmission checked = run::check_submission(
+  std::optional<run::Rescored> checked = run::check_submission(
       command.folder, submission_plan(), own_methods(), allowed_cores(), {default_data_directory(), {}}, say);
-  if (!checked.run) {
+  if (!checked) {
     std::cerr << "hullbench: " << command.folder.string() << " cannot be taken as it is\n";
     return kExitError;
   }
   // The tables are made of what was worked out here, not of what is in the pack.
   const ScratchFolder scratch("hullbench-submission");
   const fs::path whole = scratch.path() / "run";
-  const std::size_t planned = checked.run->rows.size();
-  write_run({std::move(checked.run->header), std::move(checked.run->rows), planned, {}}, whole);
+  const std::size_t planned = checked->rows.size();
+  write_run({std::move(checked->header), std::move(checked->rows), planned, {}}, whole);
   std::cout << "\n";
   table::print_markdown(report::make_documents(reports_in(whole)), std::cout);
   return kExitOk;

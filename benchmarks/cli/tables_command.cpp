@@ -40,7 +40,7 @@ void add_tables(CLI::App& app, Action& action) {
   const auto command = std::make_shared<TablesCommand>();
   CLI::App& options =
       add_command(app, "tables", "Print the tables of a run", "hullbench tables results/latest");
-  options.add_option("RUN", command->run, "The run's folder")->capture_default_str();
+  options.add_option("RUN", command->run, "The folder of a run, or of a suite")->capture_default_str();
   options.add_flag("--write", command->write, "Also write the run's tables.md and tables/ anew");
   add_export_gbench(options, command->export_gbench);
   set_action(options, action, command, &tables);

@@ -231,7 +231,7 @@ void add_tune(CLI::App& app, Action& action) {
   options.add_option(
       "--methods", command->methods,
       "Only methods whose whole name matches this regular expression, instead of all built-in ones");
-  options.add_option("--out", command->out, "Folder for the results, instead of a new one in results/tune");
+  options.add_option("--out", command->out, "Folder for the results, instead of results/tune/PLAN");
   options
       .add_option("--timeout", command->timeout_s,
                   "Time limit of one evaluation in seconds, instead of the plan's")

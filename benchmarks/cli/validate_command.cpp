@@ -21,8 +21,8 @@ ExitCode validate(const std::string& path) {
 void add_validate(CLI::App& app, Action& action) {
   const auto path = std::make_shared<std::string>();
   CLI::App& options = add_command(app, "validate",
-                                  "Check a record of a run, a search, a league, tables or a submission "
-                                  "(.json, .jsonl, .jsonl.xz) against its schema",
+                                  "Check a manifest, or a record of a run, a search, a league, tables or a "
+                                  "submission (.json, .jsonl, .jsonl.xz), against its schema",
                                   "hullbench validate results/latest/report.json");
   options.add_option("FILE", *path, "The file")->required();
   set_action(options, action, path, &validate);

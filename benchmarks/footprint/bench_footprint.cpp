@@ -100,8 +100,8 @@ MultiPolygon shape_of(const json& geometry) {
   return shape;
 }
 
-/// Runs a program with its output into the file `out`. Throws std::runtime_error when it fails.
-void run_program(const std::vector<std::string>& command, const std::string& out) {
+/// Runs a program and drops its output. Throws std::runtime_error when it fails.
+void run_program(const std::vector<std::string>& command) {
   std::vector<std::string> words = command;
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
@@ -109,7 +109,7 @@ void run_program(const std::vector<std::string>& command, const std::string& out
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   pid_t process = -1;
   const int error = posix_spawnp(&process, words[0].c_str(), &actions, nullptr, arguments.data(), environ);
@@ -128,11 +128,6 @@ void drop_from_memory(const std::string& path) {
   const bool is_done = file >= 0 && fsync(file) == 0 && posix_fadvise(file, 0, 0, POSIX_FADV_DONTNEED) == 0;
   if (file >= 0) close(file);
   if (!is_done) throw std::runtime_error("cannot drop " + path + " from the page cache");
-}
-
-json read_json(const std::string& path) {
-  std::ifstream file(path);
-  return json::parse(file);
 }
 
 /// The result of a method of the harness with a parameter, if it has any.
@@ -182,8 +177,7 @@ class Comparison {
     std::cerr << "writing " << choice_.points << " points of " << choice_.dataset << " into " << tile_
               << "\n";
     run_program({choice_.programs + "/hullbench", "points", choice_.dataset, "--n",
-                 std::to_string(choice_.points), "--seed", std::to_string(choice_.seed), "--out", tile_},
-                "/dev/null");
+                 std::to_string(choice_.points), "--seed", std::to_string(choice_.seed), "--out", tile_});
   }
 
   std::vector<Point> read() const { return polylidar::tool::read_points(tile_); }
@@ -191,15 +185,15 @@ class Comparison {
   MultiPolygon footprint(const std::vector<std::string>& options) {
     std::vector<std::string> command = {choice_.programs + "/polylidar", "footprint", tile_, "--out", index_};
     command.insert(command.end(), options.begin(), options.end());
-    run_program(command, "/dev/null");
-    const json feature = read_json(index_)["features"][0];
+    run_program(command);
+    std::ifstream file(index_);
+    const json feature = json::parse(file)["features"][0];
     properties_ = feature["properties"];
     return shape_of(feature["geometry"]);
   }
 
-  void add(std::string name, std::function<MultiPolygon()> make, std::size_t points,
-           bool is_from_disk = false) {
-    ways_.push_back({std::move(name), points, std::move(make), is_from_disk});
+  void add(std::string name, std::size_t points, std::function<MultiPolygon()> make) {
+    ways_.push_back({std::move(name), points, std::move(make)});
   }
 
   void add_ways() {
@@ -208,39 +202,28 @@ class Comparison {
     const double size = properties_["most_size"].get<double>();
     const std::size_t all = choice_.points;
     const double alpha = circumradius_of(size, all);
-    add(
-        "polylidar footprint", [this] { return footprint({}); }, all);
+    add("polylidar footprint", all, [this] { return footprint({}); });
     if (!choice_.without_times) {
-      add(
-          "polylidar footprint, from the disk", [this] { return footprint({}); }, all, true);
+      add("polylidar footprint, from the disk", all, [this] { return footprint({}); });
+      ways_.back().is_from_disk = true;
     }
-    add(
-        "polylidar footprint --alpha " + three_digits(alpha),
-        [this, alpha] {
-          return footprint({"--alpha", polylidar::tool::shortest(alpha)});
-        },
-        all);
-    add(
-        "polylidar footprint --union", [this] { return footprint({"--union"}); }, all);
-    add(
-        "hexagons " + three_digits(size) + " high with a point",
-        [this, size] { return hexbin(read(), size, kOne); }, all);
+    add("polylidar footprint --alpha " + three_digits(alpha), all, [this, alpha] {
+      return footprint({"--alpha", polylidar::tool::shortest(alpha)});
+    });
+    add("polylidar footprint --union", all, [this] { return footprint({"--union"}); });
+    add("hexagons " + three_digits(size) + " high with a point", all,
+        [this, size] { return hexbin(read(), size, kOne); });
     const double height = hexer_height(read(), kOfPdal);
-    add(
-        "hexagons " + three_digits(height) + " high with " + std::to_string(kOfPdal) + " points",
-        [this, height] { return hexbin(read(), height, kOfPdal); }, all);
+    add("hexagons " + three_digits(height) + " high with " + std::to_string(kOfPdal) + " points", all,
+        [this, height] { return hexbin(read(), height, kOfPdal); });
     const double edge = plan::auto_edge_length({.points = sample_of(read())});
-    add(
-        "GEOS concave hull of a sample",
-        [this, edge] {
-          return result_of("geos_concave_hull", sample_of(read()), {{"max_edge_length", edge}});
-        },
-        std::min(choice_.sample, all));
-    add(
-        "convex hull", [this] { return result_of("convex_hull", read(), {}); }, all);
+    add("GEOS concave hull of a sample", std::min(choice_.sample, all), [this, edge] {
+      return result_of("geos_concave_hull", sample_of(read()), {{"max_edge_length", edge}});
+    });
+    add("convex hull", all, [this] { return result_of("convex_hull", read(), {}); });
   }
 
-  /// Every k-th point.
+  /// Points evenly spread over the file.
   std::vector<Point> sample_of(const std::vector<Point>& points) const {
     std::vector<Point> sample;
     const double step =
@@ -256,7 +239,7 @@ class Comparison {
 
   void time_cat(Times& times) const {
     const Clock::time_point start = Clock::now();
-    run_program({"cat", tile_}, "/dev/null");
+    run_program({"cat", tile_});
     times.push_back(nanoseconds_since(start));
   }
 
@@ -287,15 +270,9 @@ class Comparison {
                        "Footprints of " + std::to_string(choice_.points) + " points of " + choice_.dataset,
                        columns};
     if (!choice_.without_times) {
-      table.add_row({"cat", choice_.points, seconds(cat_), table::Number(1, 1), {}, {}, {}, {}});
-      table.add_row({"cat, from the disk",
-                     choice_.points,
-                     seconds(cat_from_disk_),
-                     table::Number(1, 1),
-                     {},
-                     {},
-                     {},
-                     {}});
+      for (const auto& [name, times] :
+           {std::pair{"cat", &cat_}, std::pair{"cat, from the disk", &cat_from_disk_}})
+        table.add_row({name, choice_.points, seconds(*times), table::Number(1, 1), {}, {}, {}, {}});
     }
     for (const Way& way : ways_) {
       std::vector<table::Cell> row = {way.name, way.points};
@@ -324,10 +301,9 @@ class Comparison {
         "triangle that polylidar chose; the others as Hexer takes them, which PDAL's filters.hexbin is made "
         "of: " +
             std::to_string(kOfPdal) + " times the mean distance of consecutive points, of the first 5000.",
-        "GEOS's ConcaveHull gets every " +
-            std::to_string(
-                std::max<std::size_t>(1, choice_.points / std::max<std::size_t>(1, choice_.sample))) +
-            "th point, and the edge that the rule auto_edge_length takes from them."};
+        "GEOS's ConcaveHull gets " + std::to_string(std::min(choice_.sample, choice_.points)) +
+            " of the points, evenly spread over the file, and the edge that the rule auto_edge_length takes "
+            "from them."};
     if (choice_.without_times) return notes;
     notes.push_back("Times: medians of " + std::to_string(choice_.runs) +
                     " runs by turns, with the median absolute deviation. The file is in the page cache, "

@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <filesystem>
 #include <iostream>
 #include <string>
 
@@ -26,7 +25,6 @@ namespace {
 
 using namespace hullbench;
 using namespace hullbench::gate;
-namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kTimeThreshold = 0.05;
@@ -159,7 +157,7 @@ ExitCode run(const Arguments& arguments) {
 
   const GateVerdict verdict = decide(findings, rules);
   print_gate(findings, verdict, context, std::cout);
-  write_text_file(out / "gate.json", gate_json(findings, verdict, rules, context).dump(2) + "\n");
+  write_json_file(out / "gate.json", gate_json(findings, verdict, rules, context));
   return verdict.exit_code;
 }
 

@@ -1,31 +1,24 @@
 #include "benchmarks/gate/gate_accuracy.hpp"
 
-#include <cstdint>
+#include <cstddef>
 #include <exception>
-#include <fstream>
-#include <iterator>
 #include <limits>
-#include <stdexcept>
 
 #include "adapters/wkb.hpp"
 #include "benchmarks/metrics/area.hpp"
+#include "benchmarks/worker/protocol.hpp"
 
 namespace hullbench::gate {
 namespace {
-
-std::vector<std::uint8_t> read_bytes(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw std::runtime_error("there is no " + path.string());
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 AccuracyRow compare(const std::string& name, const fs::path& base, const fs::path& head) {
   AccuracyRow row;
   row.name = name;
   row.difference = std::numeric_limits<double>::infinity();
   try {
-    const auto base_bytes = read_bytes(base);
-    const auto head_bytes = read_bytes(head);
+    constexpr std::size_t kAnySize = std::numeric_limits<std::size_t>::max();
+    const auto base_bytes = worker::read_bytes(base, kAnySize);
+    const auto head_bytes = worker::read_bytes(head, kAnySize);
     row.same = base_bytes == head_bytes;
     if (row.same) {
       row.difference = 0;

@@ -23,7 +23,7 @@ struct Blocks {
   std::size_t count() const { return change.empty() ? 0 : change.begin()->second.size(); }
 };
 
-/// One of the two programs that run, and the place it runs from.
+/// Where the copies of the two programs are that run.
 struct Programs {
   std::filesystem::path base;
   std::filesystem::path head;

@@ -20,8 +20,8 @@ struct GateContext {
   json samples;
 };
 
-/// The tables of change, of the null control and, where a result changed, of accuracy; then what improved,
-/// what was not confirmed, and the verdict as the last line.
+/// Base and head, the table of changes with the null control beside them, and whose results changed by how
+/// much; then what improved, what was not confirmed, and the verdict as the last line.
 void print_gate(const GateFindings& findings, const GateVerdict& verdict, const GateContext& context,
                 std::ostream& out);
 

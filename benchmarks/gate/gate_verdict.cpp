@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "benchmarks/base/words.hpp"
 #include "benchmarks/statistics/judge.hpp"
@@ -89,7 +88,7 @@ std::vector<Judged> judge(const std::vector<LogRatios>& quantities, const GateRu
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     Judged row;
     row.name = quantities[i].name;
-    row.ratio = std::exp(statistics::median(std::span<const double>(quantities[i].values)));
+    row.ratio = std::exp(statistics::median(quantities[i].values));
     row.interval = slower[i].interval;
     row.p = row.ratio >= 1 ? is_slower[i].p_value : is_faster[i].p_value;
     if (is_slower[i].side == statistics::Side::kAbove) {

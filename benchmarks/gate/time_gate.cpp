@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "benchmarks/gate/gate_blocks.hpp"
@@ -22,10 +23,6 @@ void measure(const std::string& title, const Programs& programs, const TimeGateS
 
 bool has(const std::vector<Judged>& rows, SpeedChange change) {
   return std::ranges::any_of(rows, [&](const Judged& row) { return row.change == change; });
-}
-
-void append(std::vector<Judged>& rows, const std::vector<Judged>& more) {
-  rows.insert(rows.end(), more.begin(), more.end());
 }
 
 /// The quantities to look at again.
@@ -85,7 +82,8 @@ GateFindings gate_times(const TimeGateSettings& settings, const GateRules& rules
   if (findings.out_of_time) return findings;
   // Head stood in base's place: its ratios are base / head until they are turned round.
   findings.second = judge(log_ratios(second.change, -1), rules);
-  append(findings.null_control, judge(log_ratios(second.null_control), rules));
+  for (Judged& row : judge(log_ratios(second.null_control), rules))
+    findings.null_control.push_back(std::move(row));
   return findings;
 }
 

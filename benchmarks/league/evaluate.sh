@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
 # evaluate.sh HULLBENCH OUT: the whole evaluation: searches the parameters of the methods on the plans of the world,
-# measures what was chosen with every metric, and makes the league of it, OUT/league.json, with its results as OUT/league.csv. Nothing is timed, so all cores
-# work; an evaluation that was interrupted goes on where it stopped. Either part says how long it will take.
+# measures what was chosen with every metric, and makes the league of it, OUT/league.json, with its results as
+# OUT/league.csv. Nothing is timed, so all cores work; an evaluation that was interrupted goes on where it stopped.
+# Either part says how long it will take.
 #
 # METHODS: a regular expression, the only methods that take part. PLANS: other plans than those of the world.
 #
-# Exit codes: 0 done; 2 usage; 130 interrupted; else that of the part that failed. A method's failures are no failure here:
-# they are in the league.
+# Exit codes: 0 done; 2 usage; 130 interrupted; 143 ended by SIGTERM or SIGHUP; else that of the part that failed. A
+# method's failures are no failure here: they are in the league.
 set -euo pipefail
 
-[ $# -eq 2 ] || { sed -n '2,9s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+[ $# -eq 2 ] || { sed -n '2,10s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 hullbench=$1
 out=$2
 read -r -a plans <<<"${PLANS:-world_shapes world_samplers world_crossed}"

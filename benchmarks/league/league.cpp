@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <span>
 #include <stdexcept>
 #include <tuple>
 
@@ -14,7 +13,6 @@
 #include "benchmarks/tune/search.hpp"
 #include "benchmarks/tune/split.hpp"
 #include "benchmarks/tune/strata.hpp"
-#include "benchmarks/worker/protocol.hpp"
 
 namespace hullbench::league {
 namespace {
@@ -164,15 +162,13 @@ double error_of(const json& row) {
 class Samples {
  public:
   void add(const CaseFacts& facts, std::optional<double> value) {
-    if (!value) return;
-    values_.push_back(*value);
-    members_.push_back({facts.stratum(), facts.shape});
+    if (value) values_.add({facts.stratum(), facts.shape}, *value);
   }
-  double median() const { return from_finite(statistics::weighted_median(all())); }
+  double median() const { return from_finite(values_.median()); }
   /// None without a value.
   std::optional<MedianScore> median_score() const {
     if (values_.empty()) return std::nullopt;
-    MedianScore score = {all().size(), median(), statistics::weighted_median_interval(by_shape())};
+    MedianScore score = {values_.size(), median(), values_.median_interval()};
     if (score.interval)
       score.interval =
           statistics::Interval{from_finite(score.interval->low), from_finite(score.interval->high)};
@@ -181,7 +177,8 @@ class Samples {
   /// Of values from 0 to 1, beyond which a normal interval can reach.
   std::optional<MeanScore> mean_score() const {
     if (values_.empty()) return std::nullopt;
-    MeanScore score = {statistics::weighted_mean(all()), statistics::weighted_mean_interval(by_shape())};
+    MeanScore score = {statistics::weighted_mean(values_.all()),
+                       statistics::weighted_mean_interval(values_.by_shape())};
     if (score.interval) {
       score.interval = statistics::Interval{std::clamp(score.interval->low, 0.0, 1.0),
                                             std::clamp(score.interval->high, 0.0, 1.0)};
@@ -190,23 +187,7 @@ class Samples {
   }
 
  private:
-  std::vector<statistics::WeightedValue> all() const {
-    const std::vector<double> weights = tune::case_weights(members_);
-    std::vector<statistics::WeightedValue> result;
-    for (std::size_t i = 0; i < values_.size(); ++i) result.push_back({values_[i], weights[i]});
-    return result;
-  }
-  std::vector<std::vector<statistics::WeightedValue>> by_shape() const {
-    const std::vector<statistics::WeightedValue> values = all();
-    std::map<std::string, std::vector<statistics::WeightedValue>> of_shape;
-    for (std::size_t i = 0; i < values.size(); ++i) of_shape[members_[i].shape].push_back(values[i]);
-    std::vector<std::vector<statistics::WeightedValue>> result;
-    for (auto& [shape, own] : of_shape) result.push_back(std::move(own));
-    return result;
-  }
-
-  std::vector<double> values_;
-  std::vector<tune::Membership> members_;
+  tune::WeighedValues values_;
 };
 
 /// Errors on some of the cases.
@@ -297,7 +278,7 @@ LeagueEntry make_entry(const Field& field, const Entrant& entrant, const RowsByC
 std::optional<double> seconds_of(const json& row) {
   const auto times = row.value("time_ns", std::vector<std::int64_t>());
   if (times.empty() || !is_ok(row)) return std::nullopt;
-  return statistics::median(std::span<const std::int64_t>(times)) / 1e9;
+  return statistics::median(times) / 1e9;
 }
 
 std::vector<LeagueResult> make_results(const Field& field) {

@@ -1,8 +1,6 @@
 #include "benchmarks/league/league_report.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <fstream>
 #include <iomanip>
 #include <map>
 #include <set>
@@ -311,8 +309,8 @@ std::string league_csv(const League& league) {
 }
 
 json load_league(const fs::path& folder) {
-  std::ifstream in(folder / kLeagueFile);
-  return in.is_open() ? json::parse(in) : json();
+  const std::optional<std::string> text = read_text_file(folder / kLeagueFile);
+  return text ? json::parse(*text) : json();
 }
 
 void write_league_tables(const fs::path& folder) {

@@ -19,8 +19,8 @@ inline constexpr const char* kLeagueTablesFile = "league.md";
 /// that is infinite is null.
 json league_to_json(const League& league, const std::vector<json>& reports);
 
-/// The tables of what league_to_json made: the league, a table a protocol, and the performance profiles, a
-/// table a group.
+/// The tables of what league_to_json made: of each protocol the league and its parts (kinds of shapes, ways
+/// to sample), and the performance profiles, a table a group.
 table::Document league_document(const json& league);
 
 /// Every result that counts, a line each, in the long form that programs for ranking read: method (under a

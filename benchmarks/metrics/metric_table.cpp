@@ -15,9 +15,9 @@ MetricValue count_value(std::size_t count) {
 }
 
 /// A member of the boundary scores, which an invalid result has not.
-template <typename Read>
-MetricValue boundary_value(const Metrics& metrics, const Read& read) {
-  return metrics.boundary ? MetricValue(read(*metrics.boundary)) : MetricValue();
+template <typename Value>
+MetricValue boundary_value(const Metrics& metrics, Value BoundaryScores::*which) {
+  return metrics.boundary ? optional_value<double>((*metrics.boundary).*which) : MetricValue();
 }
 
 MetricValue witness_value(const Metrics& metrics, std::optional<Witness> BoundaryScores::*which,
@@ -109,9 +109,8 @@ void add_hausdorff(Table& table, const char* name, const std::string& definition
 void add_hausdorffs(Table& table) {
   table.push_back({"hausdorff", "boundary", "length", Better::kLower,
                    "the larger one of hausdorff_to_truth and hausdorff_to_result", kInvalidOrEmpty,
-                   kHuttenlocher, "boundary_scores, boundary.cpp", [](const Metrics& m) {
-                     return m.boundary ? optional_value(m.boundary->hausdorff) : MetricValue();
-                   }});
+                   kHuttenlocher, "boundary_scores, boundary.cpp",
+                   [](const Metrics& m) { return boundary_value(m, &BoundaryScores::hausdorff); }});
   add_hausdorff(
       table, "hausdorff_to_truth", "largest distance of a point of R's boundary to T's boundary",
       [](const Metrics& m) { return witness_value(m, &BoundaryScores::hausdorff_to_truth, &distance_of); },
@@ -135,23 +134,19 @@ void add_boundary(Table& table) {
   add("boundary_p95", "length", Better::kLower,
       "the larger one of the 95th percentiles, by length, of the distances of R's boundary to T's and of T's "
       "to R's",
-      kInvalidOrEmpty, kTaha,
-      [](const Metrics& m) { return m.boundary ? optional_value(m.boundary->p95) : MetricValue(); });
+      kInvalidOrEmpty, kTaha, [](const Metrics& m) { return boundary_value(m, &BoundaryScores::p95); });
   add("boundary_mean", "length", Better::kLower,
       "mean distance of R's boundary to T's and of T's to R's, by length of both together", kInvalidOrEmpty,
-      kTaha, [](const Metrics& m) { return m.boundary ? optional_value(m.boundary->mean) : MetricValue(); });
+      kTaha, [](const Metrics& m) { return boundary_value(m, &BoundaryScores::mean); });
   constexpr const char* kFScore =
       "harmonic mean of the share of R's boundary within the tolerance of T's and the share of T's within it "
       "of R's; tolerance h, 2 h or 4 h; 0 for an empty R";
-  add("f_score_1h", "ratio", Better::kHigher, kFScore, kInvalid, kKnapitsch, [](const Metrics& m) {
-    return boundary_value(m, [](const BoundaryScores& b) { return b.f_score_1h; });
-  });
-  add("f_score_2h", "ratio", Better::kHigher, kFScore, kInvalid, kKnapitsch, [](const Metrics& m) {
-    return boundary_value(m, [](const BoundaryScores& b) { return b.f_score_2h; });
-  });
-  add("f_score_4h", "ratio", Better::kHigher, kFScore, kInvalid, kKnapitsch, [](const Metrics& m) {
-    return boundary_value(m, [](const BoundaryScores& b) { return b.f_score_4h; });
-  });
+  add("f_score_1h", "ratio", Better::kHigher, kFScore, kInvalid, kKnapitsch,
+      [](const Metrics& m) { return boundary_value(m, &BoundaryScores::f_score_1h); });
+  add("f_score_2h", "ratio", Better::kHigher, kFScore, kInvalid, kKnapitsch,
+      [](const Metrics& m) { return boundary_value(m, &BoundaryScores::f_score_2h); });
+  add("f_score_4h", "ratio", Better::kHigher, kFScore, kInvalid, kKnapitsch,
+      [](const Metrics& m) { return boundary_value(m, &BoundaryScores::f_score_4h); });
   table.push_back(
       {"boundary_iou", "boundary", "ratio", Better::kHigher,
        "IoU of what in R is within 2 h of R's boundary and what in T is within 2 h of T's; 0 for an "

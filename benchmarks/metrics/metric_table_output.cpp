@@ -7,7 +7,6 @@ namespace hullbench::metrics {
 namespace {
 
 json to_json(const MetricValue& value) {
-  if (std::holds_alternative<std::monostate>(value)) return nullptr;
   json result;
   std::visit(
       [&result](const auto& held) {

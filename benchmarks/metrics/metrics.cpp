@@ -58,8 +58,6 @@ CaseScorer::CaseScorer(std::span<const Point> points, const MultiPolygon& ground
     : state_(std::make_unique<const State>(points, ground_truth)) {}
 
 CaseScorer::~CaseScorer() = default;
-CaseScorer::CaseScorer(CaseScorer&&) noexcept = default;
-CaseScorer& CaseScorer::operator=(CaseScorer&&) noexcept = default;
 
 Metrics CaseScorer::score(const MultiPolygon& result) const {
   const GeosSession geos;

@@ -60,8 +60,6 @@ class CaseScorer {
   /// empty or invalid or when GEOS fails, and as polylidar::delaunay for the points.
   CaseScorer(std::span<const Point> points, const MultiPolygon& ground_truth);
   ~CaseScorer();
-  CaseScorer(CaseScorer&&) noexcept;
-  CaseScorer& operator=(CaseScorer&&) noexcept;
 
   /// Safe from several threads at once. Throws std::runtime_error when GEOS fails.
   Metrics score(const MultiPolygon& result) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <vector>
 
 #include "benchmarks/metrics/geos_session.hpp"
@@ -67,17 +68,10 @@ struct Pair {
 
 std::size_t count_one_to_one(std::vector<Pair> pairs) {
   std::ranges::stable_sort(pairs, [](const Pair& a, const Pair& b) { return a.iou > b.iou; });
-  std::vector<const Hole*> taken;  // sorted
-  const auto take = [&taken](const Hole* hole) {
-    taken.insert(std::lower_bound(taken.begin(), taken.end(), hole), hole);
-  };
-  const auto is_free = [&taken](const Hole* hole) {
-    return !std::binary_search(taken.begin(), taken.end(), hole);
-  };
+  std::set<const Hole*> taken;
   for (const Pair& pair : pairs) {
-    if (!is_free(pair.in_result) || !is_free(pair.in_truth)) continue;
-    take(pair.in_result);
-    take(pair.in_truth);
+    if (taken.contains(pair.in_result) || taken.contains(pair.in_truth)) continue;
+    taken.insert({pair.in_result, pair.in_truth});
   }
   return taken.size() / 2;
 }

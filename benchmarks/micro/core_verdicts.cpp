@@ -6,7 +6,6 @@
 #include <functional>
 #include <limits>
 #include <map>
-#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -137,7 +136,7 @@ void fill_in_times(const Goal& goal, const Measurements& measurements, VerdictLi
     values.push_back(time_quantity(
         goal, [&](const std::string& benchmark) { return measurements.at(benchmark).times[repetition]; }));
   }
-  line.value = statistics::median(std::span<const double>(values));
+  line.value = statistics::median(values);
   line.interval = interval_of(values);
 }
 
@@ -262,7 +261,7 @@ void print_measurements(const Measurements& measurements, std::ostream& out) {
        table::Column("ns a point", "ns"), table::Column("peak bytes a point", "B")}};
   for (const auto& [benchmark, measured] : measurements) {
     if (measured.times.empty()) continue;
-    const double middle = statistics::median(std::span<const double>(measured.times));
+    const double middle = statistics::median(measured.times);
     const auto [least, most] = std::ranges::minmax_element(measured.times);
     table.add_row({benchmark, table::Number(middle / 1e6), range_cell(*least / 1e6, *most / 1e6),
                    table::Number(middle / points_of(benchmark)),

@@ -1,7 +1,6 @@
 // The goals that the core's speed and memory have (goals.json), and what a run says of them.
 #pragma once
 
-#include <cstddef>
 #include <map>
 #include <optional>
 #include <ostream>

@@ -76,7 +76,7 @@ std::int64_t CountedMemory::peak() const {
 
 }  // namespace hullbench::micro
 
-// clang-format off: the whole set that [new.delete] lets a program replace, one a line.
+// The whole set that [new.delete] lets a program replace.
 void* operator new(std::size_t size) {
   return hullbench::micro::allocate(size);
 }
@@ -137,4 +137,3 @@ void operator delete(void* block, std::align_val_t, const std::nothrow_t&) noexc
 void operator delete[](void* block, std::align_val_t, const std::nothrow_t&) noexcept {
   hullbench::micro::release(block);
 }
-// clang-format on

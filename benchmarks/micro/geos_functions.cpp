@@ -5,13 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <memory>
-#include <optional>
-#include <stdexcept>
-#include <string>
-#include <type_traits>
 #include <vector>
 
+#include "benchmarks/metrics/geos_session.hpp"
 #include "benchmarks/micro/measure.hpp"
 #include "benchmarks/micro/measured_functions.hpp"
 #include "polylidar/delaunay.hpp"
@@ -19,43 +15,28 @@
 namespace hullbench::micro {
 namespace {
 
-struct FinishGeos {
-  void operator()(GEOSContextHandle_t context) const { GEOS_finish_r(context); }
-};
-using Context = std::unique_ptr<std::remove_pointer_t<GEOSContextHandle_t>, FinishGeos>;
-
-struct DestroyGeometry {
-  GEOSContextHandle_t context;
-  void operator()(GEOSGeometry* geometry) const { GEOSGeom_destroy_r(context, geometry); }
-};
-using Geometry = std::unique_ptr<GEOSGeometry, DestroyGeometry>;
-
-Geometry own(const Context& context, GEOSGeometry* geometry, const char* operation) {
-  if (geometry == nullptr) throw std::runtime_error(std::string("GEOS failed in ") + operation);
-  return Geometry(geometry, DestroyGeometry{context.get()});
-}
+using metrics::GeosSession;
 
 // The caller's points as GEOS takes them: neither timed nor counted.
-Geometry multi_point(const Context& context, const SpeedPointSet& set) {
+GeosSession::Geometry multi_point(const GeosSession& geos, const SpeedPointSet& set) {
   std::vector<GEOSGeometry*> points;
   points.reserve(set.points.size());
   for (const Point& p : set.points) {
-    points.push_back(GEOSGeom_createPointFromXY_r(context.get(), p.x, p.y));
+    points.push_back(GEOSGeom_createPointFromXY_r(geos.context(), p.x, p.y));
   }
-  return own(context,
-             GEOSGeom_createCollection_r(context.get(), GEOS_MULTIPOINT, points.data(),
-                                         static_cast<unsigned>(points.size())),
-             "making points");
+  return geos.own(GEOSGeom_createCollection_r(geos.context(), GEOS_MULTIPOINT, points.data(),
+                                              static_cast<unsigned>(points.size())),
+                  "making points");
 }
 
 void geos_delaunay(benchmark::State& state, const SpeedPointSet& set) {
-  const Context context(GEOS_init_r());
-  const Geometry points = multi_point(context, set);
-  std::optional<Geometry> triangles;
+  const GeosSession geos;
+  const GeosSession::Geometry points = multi_point(geos, set);
+  GeosSession::Geometry triangles;
   const auto triangulate = [&] {
-    triangles = own(context, GEOSDelaunayTriangulation_r(context.get(), points.get(), 0, 0),
-                    "Delaunay triangulation");
-    return static_cast<std::size_t>(std::max(0, GEOSGetNumGeometries_r(context.get(), triangles->get())));
+    triangles =
+        geos.own(GEOSDelaunayTriangulation_r(geos.context(), points.get(), 0, 0), "Delaunay triangulation");
+    return static_cast<std::size_t>(std::max(0, GEOSGetNumGeometries_r(geos.context(), triangles.get())));
   };
   measure(state, set, 0, Memory::kCounted, triangulate, [&] { triangles.reset(); });
 }
@@ -80,13 +61,13 @@ double length_ratio(const SpeedPointSet& set) {
 
 template <bool holes>
 void geos_concave_hull(benchmark::State& state, const SpeedPointSet& set) {
-  const Context context(GEOS_init_r());
-  const Geometry points = multi_point(context, set);
+  const GeosSession geos;
+  const GeosSession::Geometry points = multi_point(geos, set);
   const double ratio = length_ratio(set);
-  std::optional<Geometry> hull;
+  GeosSession::Geometry hull;
   const auto make_hull = [&] {
-    hull = own(context, GEOSConcaveHull_r(context.get(), points.get(), ratio, holes ? 1 : 0), "concave hull");
-    return static_cast<std::size_t>(GEOSisEmpty_r(context.get(), hull->get()) == 0 ? 1 : 0);
+    hull = geos.own(GEOSConcaveHull_r(geos.context(), points.get(), ratio, holes ? 1 : 0), "concave hull");
+    return static_cast<std::size_t>(GEOSisEmpty_r(geos.context(), hull.get()) == 0 ? 1 : 0);
   };
   measure(state, set, 0, Memory::kCounted, make_hull, [&] { hull.reset(); });
 }

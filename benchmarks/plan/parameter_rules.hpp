@@ -1,7 +1,6 @@
 // Rules that choose a parameter for a case, by name in plans: {"rule": "paper_alpha"}.
 #pragma once
 
-#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>

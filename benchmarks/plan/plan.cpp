@@ -1,7 +1,6 @@
 #include "benchmarks/plan/plan.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>

@@ -1,21 +1,13 @@
 #include "benchmarks/record/json_lines.hpp"
 
-#include <optional>
 #include <stdexcept>
 #include <system_error>
-#include <utility>
 
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/record/xz_file.hpp"
 
 namespace hullbench::record {
 namespace {
-
-std::string read_all(const fs::path& path) {
-  std::optional<std::string> content = read_text_file(path);
-  if (!content) throw std::runtime_error("Cannot read " + path.string() + ".");
-  return std::move(*content);
-}
 
 json parse_line(const std::string& line, const fs::path& path, std::size_t number) {
   try {
@@ -31,7 +23,7 @@ json parse_line(const std::string& line, const fs::path& path, std::size_t numbe
 JsonLines load_json_lines(const fs::path& path) {
   JsonLines result;
   if (!fs::exists(path)) return result;
-  const std::string content = path.extension() == ".xz" ? read_xz_file(path) : read_all(path);
+  const std::string content = path.extension() == ".xz" ? read_xz_file(path) : required_text(path);
   std::size_t begin = 0;
   std::size_t number = 0;
   for (std::size_t end = content.find('\n'); end != std::string::npos; end = content.find('\n', begin)) {

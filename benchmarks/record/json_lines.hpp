@@ -2,7 +2,6 @@
 // killed loses at most the line it was writing.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>

@@ -28,9 +28,8 @@ void keep_polygons(const fs::path& run, std::span<const std::uint8_t> wkb) {
 std::optional<std::vector<std::uint8_t>> kept_polygons(const fs::path& run, const std::string& sha256) {
   const fs::path file = file_of(run, sha256);
   if (!fs::exists(file)) return std::nullopt;
-  const std::optional<std::string> bytes = read_text_file(file);
-  if (!bytes) throw std::runtime_error("cannot read " + file.string());
-  std::vector<std::uint8_t> wkb(bytes->begin(), bytes->end());
+  const std::string bytes = required_text(file);
+  std::vector<std::uint8_t> wkb(bytes.begin(), bytes.end());
   if (hash_of(wkb) != sha256)
     throw std::runtime_error(file.string() + " was changed: its hash is not its name");
   return wkb;

@@ -93,11 +93,6 @@ double badness(const json& l2) {
   return l2.is_number() ? l2.get<double>() : std::numeric_limits<double>::infinity();
 }
 
-/// The data set in a case's name.
-std::string dataset_of_case(const std::string& name) {
-  return name.substr(0, name.find("/n:"));
-}
-
 }  // namespace
 
 std::string case_of_run(const std::string& run_name) {
@@ -113,8 +108,8 @@ PictureBook::PictureBook(const fs::path& folder, std::size_t planned_runs)
       if (line.at("kind") == "case") {
         cases_.insert(name);
       } else {
-        const std::string group = group_of(line.at("run").get<std::string>(), dataset_of_case(name));
-        std::multiset<double>& kept = worst_[group];
+        const std::string dataset = name.substr(0, name.find("/n:"));
+        std::multiset<double>& kept = worst_[group_of(line.at("run").get<std::string>(), dataset)];
         kept.insert(badness(line.at("l2")));
         if (kept.size() > kWorstPictures) kept.erase(kept.begin());
       }
@@ -159,7 +154,7 @@ void merge_pictures(const std::vector<fs::path>& folders, const fs::path& out) {
     const fs::path plain = folder / kPicturesFile;
     const fs::path file = fs::exists(plain) ? plain : fs::path(plain.string() + ".xz");
     for (const json& line : load_json_lines(file).lines) {
-      // A case's name has a slash at the places where a run's name has others, so the two never meet.
+      // No method's name has a space, so no run is called as a case is here.
       if (!known.insert(line.value("run", "case " + line.value("case", ""))).second) continue;
       if (!writer) writer.emplace(out / kPicturesFile);
       writer->append(line);

@@ -98,10 +98,9 @@ std::vector<std::string> validate_manifest(const json& manifest) {
 
 std::vector<std::string> validate_file(const fs::path& path) {
   if (path.extension() == ".jsonl" || path.string().ends_with(".jsonl.xz")) return validate_lines(path);
-  const std::optional<std::string> content = read_text_file(path);
-  if (!content) throw std::runtime_error("Cannot read " + path.string() + ".");
+  const std::string content = required_text(path);
   try {
-    json document = json::parse(*content);
+    json document = json::parse(content);
     if (document.is_object() && document.contains("manifest_version")) return validate_manifest(document);
     if (schema_of_kind(document) != nullptr) return validate_by_kind(document);
     if (path.filename() == "run.json" && document.is_object()) complete_run_description(document);

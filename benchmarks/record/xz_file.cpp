@@ -5,27 +5,17 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <stdexcept>
-#include <vector>
+
+#include "benchmarks/base/files.hpp"
 
 namespace hullbench::record {
-namespace {
-
-constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
-
-}  // namespace
 
 std::string read_xz_file(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in.is_open() || std::filesystem::is_directory(path)) {
-    throw std::runtime_error("Cannot read " + path.string() + ".");
-  }
-  const std::vector<char> compressed(std::istreambuf_iterator<char>(in), {});
-
+  constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
+  const std::string compressed = required_text(path);
   lzma_stream stream = LZMA_STREAM_INIT;
   const std::unique_ptr<lzma_stream, void (*)(lzma_stream*)> owner(&stream, &lzma_end);
   lzma_ret state = lzma_stream_decoder(&stream, std::numeric_limits<std::uint64_t>::max(), LZMA_CONCATENATED);

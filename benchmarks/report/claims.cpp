@@ -153,7 +153,7 @@ class ClaimRatios {
   static std::string title(const std::string& method) { return paper().at("methods").value(method, method); }
 
   Runs runs_of(const std::string& method, const Case& which) const {
-    return measurements_.find(method, paper().at("protocol").get<std::string>(), which);
+    return measurements_.find({method, paper().at("protocol").get<std::string>()}, which);
   }
 
   /// Of how many of the claim's cases `is` holds.

@@ -206,7 +206,7 @@ table::Table summary_table(TableContext& context, const std::string& id, const s
 
 table::Cell error_cell(const TableContext& context, const Line& line, const Case& which,
                        const json& published) {
-  const auto runs = context.measurements.find(line.method, line.protocol, which);
+  const auto runs = context.measurements.find(line, which);
   if (const record::RunRecord* failure = first_failure(runs)) {
     return failure->status == record::Status::kNotInstalled ? "" : failure_name(*failure);
   }

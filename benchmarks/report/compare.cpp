@@ -1,7 +1,6 @@
 #include "benchmarks/report/compare.hpp"
 
 #include <map>
-#include <span>
 #include <utility>
 
 #include "benchmarks/report/labels.hpp"
@@ -101,7 +100,7 @@ MethodChange method_change(const std::string& method, const std::string& protoco
   }
   result.pairs = ratios.size();
   if (ratios.empty()) return result;
-  result.ratio = statistics::median(std::span<const double>(ratios));
+  result.ratio = statistics::median(ratios);
   std::vector<std::vector<double>> clusters;
   clusters.reserve(by_shape.size());
   for (auto& [shape, values] : by_shape) clusters.push_back(std::move(values));

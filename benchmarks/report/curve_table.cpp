@@ -12,6 +12,20 @@
 namespace hullbench::report {
 namespace {
 
+/// Where a row stands on a plan's axis: a number, or for the axis "sampling" the stress in words ("noise
+/// 0.5"; "uniform" without one). Null when it has no place there.
+json place_on_axis(const json& axis, const record::RunRecord& row) {
+  const std::string of = axis.at("of").get<std::string>();
+  if (of == "n") return row.n;
+  if (of == "sampling") {
+    const std::size_t mark = row.dataset.find('~');
+    if (mark == std::string::npos) return "uniform";
+    return stress_title(row.dataset.substr(mark + 1));
+  }
+  const auto level = row.levels.find(of);
+  return level == row.levels.end() ? json() : json(level->second);
+}
+
 struct Place {
   json at;                  ///< on the axis
   std::vector<Case> cases;  ///< there
@@ -44,7 +58,7 @@ struct Errors {
 Errors errors_of(const TableContext& context, const Line& line, const std::vector<Case>& cases) {
   Errors errors;
   for (const Case& which : cases) {
-    const auto runs = context.measurements.find(line.method, line.protocol, which);
+    const auto runs = context.measurements.find(line, which);
     if (is_missing(runs)) continue;
     const std::vector<double> values = all_values(runs, "l2");
     const bool failed = first_failure(runs) != nullptr || values.empty();
@@ -76,18 +90,6 @@ std::vector<table::Column> columns_of(const json& axis, const std::vector<Place>
 }
 
 }  // namespace
-
-json place_on_axis(const json& axis, const record::RunRecord& row) {
-  const std::string of = axis.at("of").get<std::string>();
-  if (of == "n") return row.n;
-  if (of == "sampling") {
-    const std::size_t mark = row.dataset.find('~');
-    if (mark == std::string::npos) return "uniform";
-    return stress_title(row.dataset.substr(mark + 1));
-  }
-  const auto level = row.levels.find(of);
-  return level == row.levels.end() ? json() : json(level->second);
-}
 
 table::Table curve_table(TableContext& context) {
   const json& axis = context.report.at("plan").at("axis");

@@ -1,16 +1,10 @@
 // The table of a plan with an axis: how every method's error changes along it.
 #pragma once
 
-#include "benchmarks/base/names.hpp"
-#include "benchmarks/record/record.hpp"
 #include "benchmarks/report/table_context.hpp"
 #include "benchmarks/table/table.hpp"
 
 namespace hullbench::report {
-
-/// Where a row stands on a plan's axis: a number, or for the axis "sampling" the stress in words ("noise
-/// 0.5"; "uniform" without one). `axis` is the plan's, as in run.json. Null when the row has no place on it.
-json place_on_axis(const json& axis, const record::RunRecord& row);
 
 /// A line a method, a column a place on the axis, from the least; words in the order in which they occur. A
 /// cell is the median over the cases of L2; a failed run is infinitely bad, so a cell without a number says

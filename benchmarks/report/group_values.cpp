@@ -39,7 +39,7 @@ void add_spreads(const TableContext& context, const Line& line, const std::vecto
   std::vector<double> times;
   std::vector<double> equal_work;
   for (const Case& which : cases) {
-    const auto runs = context.measurements.find(line.method, line.protocol, which);
+    const auto runs = context.measurements.find(line, which);
     const std::vector<double> of_case = all_values(runs, "l2_paper");
     if (!of_case.empty()) errors.push_back(statistics::median(of_case));
     if (!context.measurements.has_times()) continue;
@@ -61,8 +61,7 @@ std::vector<GroupValues> group_values(const TableContext& context, const std::ve
   std::size_t most = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     for (std::size_t k = 0; k < cases.size(); ++k)
-      solved[i][k] =
-          count_case(context.measurements.find(lines[i].method, lines[i].protocol, cases[k]), all[i]);
+      solved[i][k] = count_case(context.measurements.find(lines[i], cases[k]), all[i]);
     most = std::max(most, all[i].solved);
   }
   const auto has_enough = [&](std::size_t i) { return all[i].solved > 0 && 2 * all[i].solved >= most; };

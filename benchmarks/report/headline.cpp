@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -78,8 +77,8 @@ bool is_slower(const Measurements& measurements, const Line& line, const Line& t
 bool same_polygons(const Measurements& measurements, const Line& one, const Line& other) {
   bool compared = false;
   for (const Case& which : measurements.cases()) {
-    const auto others = measurements.find(other.method, other.protocol, which);
-    for (const record::RunRecord* run : measurements.find(one.method, one.protocol, which)) {
+    const auto others = measurements.find(other, which);
+    for (const record::RunRecord* run : measurements.find(one, which)) {
       const record::RunRecord* beside = counterpart(*run, others);
       if (beside == nullptr || !is_measured(*run) || !is_measured(*beside)) continue;
       if (!same_result(*run, *beside)) return false;

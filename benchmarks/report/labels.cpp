@@ -57,8 +57,8 @@ std::string method_label(const std::vector<json>& reports, const std::string& me
 }
 
 std::string family_title(const json& report, const std::string& dataset) {
-  const std::string unstressed = dataset.substr(0, dataset.find('~'));
-  return title_of(report.at("datasets"), family_of(report, unstressed).value_or(unstressed));
+  const std::string shape = shape_of(dataset);
+  return title_of(report.at("datasets"), family_of(report, shape).value_or(shape));
 }
 
 std::string shape_title(const json& report, const std::string& dataset_name, bool holes) {

@@ -123,7 +123,7 @@ Measurements::Measurements(const json& report)
   for (std::size_t position = 0; position < runs_.size(); ++position) {
     const record::RunRecord& run = runs_[position];
     const Case which{run.dataset, run.holes, run.n};
-    index_[{run.method, run.protocol, which}].push_back(position);
+    index_[{Line{run.method, run.protocol}, which}].push_back(position);
     first_seen.emplace(run.dataset, position);
     cases_.push_back(which);
   }
@@ -134,9 +134,9 @@ Measurements::Measurements(const json& report)
   cases_.erase(std::unique(cases_.begin(), cases_.end()), cases_.end());
 }
 
-Runs Measurements::find(const std::string& method, const std::string& protocol, const Case& which) const {
+Runs Measurements::find(const Line& line, const Case& which) const {
   Runs result;
-  const auto found = index_.find({method, protocol, which});
+  const auto found = index_.find({line, which});
   if (found == index_.end()) return result;
   for (const std::size_t position : found->second) result.push_back(&runs_[position]);
   return result;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "benchmarks/base/names.hpp"
@@ -28,7 +29,7 @@ struct Case {
 struct Line {
   std::string method;
   std::string protocol;
-  bool operator==(const Line&) const = default;
+  auto operator<=>(const Line&) const = default;  // NOLINT(modernize-use-nullptr): as above
 };
 
 /// The runs of one line and case.
@@ -96,23 +97,17 @@ class Measurements {
   const std::string& why_no_times() const { return why_no_times_; }
   bool has_times() const { return why_no_times_.empty(); }
 
-  /// The runs of that method, protocol and case; none when there are none.
-  Runs find(const std::string& method, const std::string& protocol, const Case& which) const;
+  /// The runs of that line and case; none when there are none.
+  Runs find(const Line& line, const Case& which) const;
 
   /// All cases that occur, ordered by data set (as they first occur), without holes before with holes, then
   /// n.
   const std::vector<Case>& cases() const { return cases_; }
 
  private:
-  struct Key {
-    std::string method;
-    std::string protocol;
-    Case which;
-    auto operator<=>(const Key&) const = default;  // NOLINT(modernize-use-nullptr): as above
-  };
   std::vector<record::RunRecord> runs_;
   std::string why_no_times_;
-  std::map<Key, std::vector<std::size_t>> index_;  ///< positions in runs_
+  std::map<std::pair<Line, Case>, std::vector<std::size_t>> index_;  ///< positions in runs_
   std::vector<Case> cases_;
 };
 

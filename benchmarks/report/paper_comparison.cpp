@@ -47,7 +47,7 @@ void compare_groups(const TableContext& context, std::vector<Comparison>& compar
 /// case.
 std::optional<double> step_time(const TableContext& context, const std::string& method, const Case& which,
                                 const PaperStep* step) {
-  const auto runs = context.measurements.find(method, paper().at("protocol").get<std::string>(), which);
+  const auto runs = context.measurements.find({method, paper().at("protocol").get<std::string>()}, which);
   if (runs.empty() || first_failure(runs) != nullptr) return std::nullopt;
   const std::vector<std::int64_t> values =
       step == nullptr ? all_times(runs, Boundary::kPaper) : all_step_times(runs, *step);
@@ -69,7 +69,8 @@ void compare_steps(const TableContext& context, std::vector<Comparison>& compari
     const auto compare = [&](const std::string& quantity, const std::string& measured_method,
                              const PaperStep* step, const json& theirs) {
       const std::string protocol = paper().at("protocol").get<std::string>();
-      if (!theirs.is_number() || context.measurements.find(measured_method, protocol, which).empty()) return;
+      if (!theirs.is_number() || context.measurements.find({measured_method, protocol}, which).empty())
+        return;
       const auto ours = step_time(context, measured_method, which, step);
       comparisons.push_back(
           {steps.at("where").get<std::string>(), "", measured_method, quantity, theirs.get<double>(), ours});

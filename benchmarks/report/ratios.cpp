@@ -26,8 +26,8 @@ Ratios ratios_over(const Measurements& measurements, const Line& line, const Lin
   Ratios result;
   std::vector<CaseRatios> ratios;
   for (const Case& which : cases) {
-    const Runs ours = measurements.find(line.method, line.protocol, which);
-    const Runs theirs = measurements.find(reference.method, reference.protocol, which);
+    const Runs ours = measurements.find(line, which);
+    const Runs theirs = measurements.find(reference, which);
     if (is_missing(ours) || is_missing(theirs)) continue;
     const bool failed = first_failure(ours) != nullptr;
     const bool reference_failed = first_failure(theirs) != nullptr;

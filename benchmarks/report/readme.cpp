@@ -47,7 +47,7 @@ std::optional<table::Table> methods_table(const json& report) {
     if (!is_papers && !is_rival) continue;
     std::vector<table::Cell> cells = {row_label(context, line, shape)};
     for (const Case& which : shape) {
-      const auto runs = context.measurements.find(line.method, line.protocol, which);
+      const auto runs = context.measurements.find(line, which);
       if (times) cells.push_back(cell(runs, Quantity::kEqualWork));
       cells.push_back(cell(runs, Quantity::kError));
     }

@@ -82,7 +82,7 @@ class SetTables {
       std::vector<table::Cell> cells = {name(which)};
       bool any = false;
       for (const Line& line : lines_) {
-        const auto runs = context_.measurements.find(line.method, line.protocol, which);
+        const auto runs = context_.measurements.find(line, which);
         cells.push_back(runs.empty() ? table::Cell() : read(*runs.front()));
         any = any || cells.back().value;
       }
@@ -100,8 +100,7 @@ class SetTables {
   Runs all_runs(const Case& which) const {
     Runs runs;
     for (const Line& line : lines_) {
-      for (const record::RunRecord* run : context_.measurements.find(line.method, line.protocol, which))
-        runs.push_back(run);
+      for (const record::RunRecord* run : context_.measurements.find(line, which)) runs.push_back(run);
     }
     return runs;
   }
@@ -137,7 +136,7 @@ table::Table methods_table(const TableContext& context) {
   for (const Line& line : lines_of(context, context.measurements.cases())) {
     Runs runs;
     for (const Case& which : context.measurements.cases()) {
-      for (const record::RunRecord* run : context.measurements.find(line.method, line.protocol, which)) {
+      for (const record::RunRecord* run : context.measurements.find(line, which)) {
         if (run->status != record::Status::kNotInstalled) runs.push_back(run);
       }
     }

@@ -37,11 +37,6 @@ json statistics_to_json(const std::vector<std::int64_t>& values) {
           {"std_ns", deviation ? json(*deviation) : json(nullptr)}};
 }
 
-json metric_or_null(const json& metrics, const char* name) {
-  const auto found = metrics.find(name);
-  return found == metrics.end() ? json(nullptr) : *found;
-}
-
 json summary_row(const record::RunRecord& run, const std::map<std::string, Contest>& contests) {
   const auto contest = contests.find(run.id);
   const bool judged = contest != contests.end();
@@ -50,10 +45,10 @@ json summary_row(const record::RunRecord& run, const std::map<std::string, Conte
           {"status", to_string(run.status)},
           {"time", statistics_to_json(times(run, Boundary::kEqualWork))},
           {"paper_time", statistics_to_json(times(run, Boundary::kPaper))},
-          {"l2", metric_or_null(run.metrics, "l2")},
-          {"l2_paper", metric_or_null(run.metrics, "l2_paper")},
-          {"iou", metric_or_null(run.metrics, "iou")},
-          {"valid", metric_or_null(run.metrics, "valid")},
+          {"l2", run.metrics.value("l2", json())},
+          {"l2_paper", run.metrics.value("l2_paper", json())},
+          {"iou", run.metrics.value("iou", json())},
+          {"valid", run.metrics.value("valid", json())},
           {"order", judged && contest->second.order ? json(*contest->second.order) : json(nullptr)},
           {"fastest", judged && contest->second.is_fastest}};
 }

@@ -1,6 +1,7 @@
 #include "benchmarks/report/table_context.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <optional>
 #include <utility>
@@ -85,8 +86,6 @@ std::vector<std::int64_t> all_step_times(const Runs& runs, const PaperStep& step
   return collect(runs, [&](const record::RunRecord& run) { return step_times(run, step.parts); });
 }
 
-/// How a run that gave no result to be believed is called in a cell. A result that is not a valid
-/// multipolygon is one, whatever its time.
 std::string failure_name(const record::RunRecord& run) {
   return run.status == record::Status::kOk || run.status == record::Status::kInvalidOutput
              ? "invalid"
@@ -108,12 +107,12 @@ table::Cell cell(const Runs& runs, Quantity quantity) {
 }
 
 std::size_t usual_repetitions(const Measurements& measurements) {
-  std::map<std::size_t, std::size_t> rows;  // by number of repetitions
+  std::map<std::size_t, std::size_t, std::greater<>> rows;  // by number of repetitions, the largest first
   for (const record::RunRecord& run : measurements.runs()) {
     if (!run.time_ns.empty()) ++rows[run.time_ns.size()];
   }
   if (rows.empty()) return 0;
-  return std::ranges::max_element(rows, [](const auto& a, const auto& b) { return a.second <= b.second; })
+  return std::ranges::max_element(rows, [](const auto& a, const auto& b) { return a.second < b.second; })
       ->first;
 }
 
@@ -123,7 +122,7 @@ std::string row_label(const TableContext& context, const Line& line, const std::
   std::size_t most = usual;
   bool any = false;
   for (const Case& which : cases) {
-    for (const record::RunRecord* run : context.measurements.find(line.method, line.protocol, which)) {
+    for (const record::RunRecord* run : context.measurements.find(line, which)) {
       const std::size_t count = run->time_ns.size();
       if (count == 0) continue;
       least = any ? std::min(least, count) : count;
@@ -175,7 +174,7 @@ std::vector<Line> lines_of(const TableContext& context, const Shape& shape) {
   for (const std::string& method : methods) {
     for (const record::Protocol& protocol : record::protocols()) {
       const bool occurs = std::ranges::any_of(shape, [&](const Case& which) {
-        return !context.measurements.find(method, protocol.name, which).empty();
+        return !context.measurements.find({method, protocol.name}, which).empty();
       });
       if (occurs) result.push_back({method, protocol.name});
     }
@@ -186,8 +185,7 @@ std::vector<Line> lines_of(const TableContext& context, const Shape& shape) {
 std::vector<std::size_t> failure_notes(TableContext& context, const Line& line, const Shape& shape) {
   std::vector<std::pair<std::string, Runs>> kinds;  // by name, in the order of n
   for (const Case& which : shape) {
-    const record::RunRecord* failure =
-        first_failure(context.measurements.find(line.method, line.protocol, which));
+    const record::RunRecord* failure = first_failure(context.measurements.find(line, which));
     if (failure == nullptr) continue;
     const std::string name = failure_name(*failure);
     const auto found = std::ranges::find_if(kinds, [&](const auto& kind) { return kind.first == name; });
@@ -209,7 +207,7 @@ std::vector<table::Cell> row(TableContext& context, const Line& line, const Shap
   std::vector<table::Cell> result = {is_time ? row_label(context, line, shape) : label(context, line)};
   result.front().notes = failure_notes(context, line, shape);
   for (const Case& which : shape) {
-    result.push_back(cell(context.measurements.find(line.method, line.protocol, which), quantity));
+    result.push_back(cell(context.measurements.find(line, which), quantity));
   }
   say_not_installed_once(result);
   return result;

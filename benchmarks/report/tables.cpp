@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <set>
 #include <string>
@@ -71,13 +70,12 @@ std::vector<table::Cell> holes_cells(const TableContext& context, const Line& li
   std::vector<double> errors;
   for (const Case& which : cases) {
     if (!which.holes) continue;
-    const auto with = context.measurements.find(line.method, line.protocol, which);
-    const auto without =
-        context.measurements.find(line.method, line.protocol, {which.dataset, false, which.n});
+    const auto with = context.measurements.find(line, which);
+    const auto without = context.measurements.find(line, {which.dataset, false, which.n});
     if (with.empty() || without.empty() || first_failure(without) != nullptr) continue;
     const bool failed = first_failure(with) != nullptr;
     const auto add = [&](std::vector<double>& ratios, auto values) {
-      if (failed) return ratios.push_back(std::numeric_limits<double>::infinity());
+      if (failed) return ratios.push_back(kInfinity);
       const double by = values(without);
       if (by > 0) ratios.push_back(values(with) / by);
     };
@@ -161,8 +159,7 @@ std::optional<table::Table> headline_table(const TableContext& context) {
     any_same = any_same || same;
     does_more = rival.value("does_more", does_more);
     const auto number = [&](const char* name) {
-      return rival.at(name).is_null() ? std::numeric_limits<double>::infinity()
-                                      : rival.at(name).get<double>();
+      return rival.at(name).is_null() ? kInfinity : rival.at(name).get<double>();
     };
     const auto interval = rival.at("low").is_null()
                               ? std::nullopt
@@ -220,7 +217,7 @@ bool is_steps_shape(const Case& which) {
 }
 
 std::vector<table::Cell> measured_steps(const TableContext& context, const Line& line, const Case& which) {
-  const auto runs = context.measurements.find(line.method, line.protocol, which);
+  const auto runs = context.measurements.find(line, which);
   if (runs.empty() || first_failure(runs) != nullptr) return {};
   std::vector<table::Cell> result = {row_label(context, line, {which})};
   for (const PaperStep& step : paper_steps()) result.push_back(median_cell(all_step_times(runs, step)));

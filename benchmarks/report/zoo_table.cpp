@@ -20,7 +20,7 @@ bool is_wrong(const record::RunRecord& run) {
 
 /// Whether the points of a case have an area: their convex hull has.
 bool has_area(const TableContext& context, const Case& which) {
-  const auto runs = context.measurements.find("convex_hull", "default", which);
+  const auto runs = context.measurements.find({"convex_hull", "default"}, which);
   return runs.empty() || metric(*runs.front(), "polygons") != 0.0;
 }
 
@@ -63,7 +63,7 @@ table::Table zoo_table(const TableContext& context) {
   for (const Case& which : context.measurements.cases()) {
     std::vector<table::Cell> cells = {which.dataset, shape_title(context, which)};
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      const auto runs = context.measurements.find(lines[i].method, lines[i].protocol, which);
+      const auto runs = context.measurements.find(lines[i], which);
       const std::string word =
           runs.empty() ? table::kNothing : zoo_word(*runs.front(), has_area(context, which));
       if (word == "ok") ++right[i];

@@ -78,15 +78,7 @@ void Progress::end() {
 }
 
 double Progress::seconds_left() const {
-  Rates everywhere;
-  for (const Section& section : sections_) {
-    for (const auto& [method, rate] : section.rates) {
-      for (const std::string& name : {method, std::string()}) {
-        everywhere[name].seconds += rate.seconds;
-        everywhere[name].points += rate.points;
-      }
-    }
-  }
+  Rates everywhere = rates_of_plan("");
   const Rate& all = everywhere[std::string()];
   if (!(all.seconds > 0) || !(all.points > 0)) return -1;
   double left = 0;
@@ -97,16 +89,17 @@ double Progress::seconds_left() const {
 Progress::Rates Progress::rates_of_plan(const std::string& plan) const {
   Rates result;
   for (const Section& section : sections_) {
-    if (plan.empty() || section.plan != plan) continue;
+    if (!plan.empty() && section.plan != plan) continue;
     for (const auto& [method, rate] : section.rates) {
-      result[method].seconds += rate.seconds;
-      result[method].points += rate.points;
+      for (const std::string& name : {method, std::string()}) {
+        result[name].seconds += rate.seconds;
+        result[name].points += rate.points;
+      }
     }
   }
   return result;
 }
 
-/// `rates_elsewhere` has the rate of all methods together under the empty name.
 double Progress::seconds_left(const Section& section, const Rates& rates_elsewhere) const {
   const Rates rates_of_same_plan = rates_of_plan(section.plan);
   const auto rate_of = [&](const std::string& method) {

@@ -73,7 +73,8 @@ class Progress {
 
   Section& section() { return sections_[current_section_]; }
   const Section& section() const { return sections_[current_section_]; }
-  /// The rates of the sections of that plan together.
+  /// The rates of the sections of that plan together, or of all when it is empty; of all methods under the
+  /// empty name.
   Rates rates_of_plan(const std::string& plan) const;
   double seconds_left(const Section& section, const Rates& rates_elsewhere) const;
   void show(bool now);

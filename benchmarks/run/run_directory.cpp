@@ -30,7 +30,7 @@ json read_header(const fs::path& folder) {
 
 void remove_run_files(const fs::path& folder) {
   for (const char* file : {record::kHeaderFile, record::kRowsFile, kRepetitionsFile, record::kPicturesFile,
-                           record::kReportFile, record::kTablesFile}) {
+                           record::kReportFile, record::kTablesFile, record::kSuiteFile}) {
     fs::remove(folder / file);
   }
   fs::remove_all(folder / record::kTablesFolder);

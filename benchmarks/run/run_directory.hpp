@@ -70,7 +70,8 @@ struct RunPlace {
 /// An earlier run with the same plan, filter, shard, binary and machine is gone on with: the newest one in
 /// `results`/runs if it is not finished (has no report.json), or the one in `out`, finished or not. Throws
 /// ConfigurationError when the folder cannot be written, is in use by another harness, or `out` holds
-/// something else and `force` is not set; with `force` the files of an earlier run in `out` are removed.
+/// something else and `force` is not set; with `force` the files of an earlier run in `out` are removed, and
+/// a suite.json, whose runs would be read instead of this one.
 std::unique_ptr<RunDirectory> open_run_directory(const json& header, const RunPlace& place);
 
 /// The newest of the folders in `runs` (their names begin with the time) that `is_same`; none when it is

@@ -40,7 +40,7 @@ struct CaseWork {
   std::vector<Entry> entries = {};
 };
 
-/// A batch holds cases for about so many points times runs: 62 of the random polygons, which are worth
+/// A batch holds cases for about so many points times runs: 31 of the random polygons, which are worth
 /// drawing and scoring in parallel, but one of the largest state shapes, as little is to be lost when the
 /// machine stops.
 constexpr std::int64_t kBatchWork = 1'000'000;

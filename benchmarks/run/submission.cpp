@@ -222,15 +222,14 @@ std::string fault_of_entries(const json& entries) {
   return "";
 }
 
-CheckedSubmission check_submission(const fs::path& folder, const plan::Plan& plan,
-                                   const std::vector<std::string>& known, const std::vector<int>& cores,
-                                   const DataFolders& folders,
-                                   const std::function<void(const Verdict&)>& say) {
+std::optional<Rescored> check_submission(const fs::path& folder, const plan::Plan& plan,
+                                         const std::vector<std::string>& known, const std::vector<int>& cores,
+                                         const DataFolders& folders,
+                                         const std::function<void(const Verdict&)>& say) {
   if (!fs::is_regular_file(folder / kSubmissionFile)) {
     throw ConfigurationError("there is no " + (folder / kSubmissionFile).string() +
                              "; 'hullbench submit pack' makes such a folder");
   }
-  CheckedSubmission result;
   const auto judge = [&](const char* name, const std::string& good,
                          const std::function<std::string()>& find_fault) {
     std::string fault;
@@ -244,8 +243,7 @@ CheckedSubmission check_submission(const fs::path& folder, const plan::Plan& pla
     std::replace_if(
         fault.begin(), fault.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '`'; },
         ' ');
-    result.verdicts.push_back({name, fault.empty(), record::Status::kOk, fault.empty() ? good : fault});
-    say(result.verdicts.back());
+    say({name, fault.empty(), record::Status::kOk, fault.empty() ? good : fault});
     return fault.empty();
   };
   const fs::path run_folder = folder / kSubmissionRun;
@@ -275,8 +273,7 @@ CheckedSubmission check_submission(const fs::path& folder, const plan::Plan& pla
         rescored = rescore(run_folder, cores, folders);
         return fault_of_scores(run, rescored);
       });
-  if (is_sound) result.run = std::move(rescored);
-  return result;
+  return is_sound ? std::optional(std::move(rescored)) : std::nullopt;
 }  // NOLINT(clang-analyzer-cplusplus.NewDeleteLeaks): the analyser does not follow the moves of a json
 
 }  // namespace hullbench::run

@@ -35,21 +35,17 @@ std::vector<std::string> submitted_files(const fs::path& folder);
 /// repetitions of its own, or another parameter for each case. Empty when it does not.
 std::string fault_of_entries(const json& entries);
 
-struct CheckedSubmission {
-  std::vector<Verdict> verdicts;
-  std::optional<Rescored> run;  ///< with the scores of this program; none when a verdict before it was bad
-};
-
 /// Checks the pack in `folder` against `plan`, the plan `submission` of this program: files, records, plan,
 /// rows, and every score, worked out anew from the polygons on the points that this program draws. `known`:
 /// the methods of this program, which nobody hands in. Hands each verdict to `say` as it comes. Times, memory
 /// and the contract cannot be checked. Stops after a verdict that the others stand on. The folder is a
-/// stranger's: whatever is in it gives a verdict.
+/// stranger's: whatever is in it gives a verdict. Returns the run with the scores of this program; none when
+/// a verdict was bad.
 ///
 /// Throws ConfigurationError when there is no pack in the folder, and Interrupted.
-CheckedSubmission check_submission(const fs::path& folder, const plan::Plan& plan,
-                                   const std::vector<std::string>& known, const std::vector<int>& cores,
-                                   const DataFolders& folders,
-                                   const std::function<void(const Verdict&)>& say);
+std::optional<Rescored> check_submission(const fs::path& folder, const plan::Plan& plan,
+                                         const std::vector<std::string>& known, const std::vector<int>& cores,
+                                         const DataFolders& folders,
+                                         const std::function<void(const Verdict&)>& say);
 
 }  // namespace hullbench::run

@@ -8,19 +8,22 @@
 namespace hullbench::statistics {
 namespace {
 
-template <typename T>
-std::vector<double> sorted_copy(std::span<const T> values) {
-  if (values.empty()) throw std::invalid_argument("A statistic of no values is not defined.");
-  std::vector<double> sorted;
-  sorted.reserve(values.size());
-  // Exact below 2^53 ns, which is 104 days.
-  for (const T value : values) sorted.push_back(static_cast<double>(value));
-  std::ranges::sort(sorted);
-  return sorted;
+/// Exact below 2^53 ns, which is 104 days.
+std::vector<double> as_doubles(std::span<const std::int64_t> times) {
+  return {times.begin(), times.end()};
 }
 
-double quantile_of_sorted(const std::vector<double>& sorted, double q) {
+void throw_if_none(std::span<const double> values) {
+  if (values.empty()) throw std::invalid_argument("A statistic of no values is not defined.");
+}
+
+}  // namespace
+
+double quantile(std::span<const double> values, double q) {
+  throw_if_none(values);
   if (!(q >= 0 && q <= 1)) throw std::invalid_argument("A quantile must lie between 0 and 1.");
+  std::vector<double> sorted(values.begin(), values.end());
+  std::ranges::sort(sorted);
   const double position = q * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(position);
   const std::size_t above = std::min(below + 1, sorted.size() - 1);
@@ -29,64 +32,32 @@ double quantile_of_sorted(const std::vector<double>& sorted, double q) {
   return sorted[below] + (position - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
-template <typename Value>
-double mean_of(std::span<const Value> values) {
-  if (values.empty()) throw std::invalid_argument("A statistic of no values is not defined.");
-  double sum = 0;
-  for (const Value value : values) sum += static_cast<double>(value);
-  return sum / static_cast<double>(values.size());
-}
-
-template <typename Value>
-std::optional<double> standard_deviation_of(std::span<const Value> values) {
-  const double centre = mean_of(values);
-  if (values.size() == 1) return std::nullopt;
-  double sum = 0;
-  for (const Value value : values) {
-    const double deviation = static_cast<double>(value) - centre;
-    sum += deviation * deviation;
-  }
-  return std::sqrt(sum / static_cast<double>(values.size() - 1));
-}
-
-}  // namespace
-
-double quantile(std::span<const std::int64_t> values, double q) {
-  return quantile_of_sorted(sorted_copy(values), q);
-}
-
-double quantile(std::span<const double> values, double q) {
-  return quantile_of_sorted(sorted_copy(values), q);
-}
-
 double median(std::span<const std::int64_t> values) {
-  return quantile_of_sorted(sorted_copy(values), 0.5);
+  return quantile(as_doubles(values), 0.5);
 }
 
 double median(std::span<const double> values) {
-  return quantile_of_sorted(sorted_copy(values), 0.5);
+  return quantile(values, 0.5);
 }
 
 double median_absolute_deviation(std::span<const std::int64_t> values) {
   const double middle = median(values);
-  std::vector<double> deviations;
-  deviations.reserve(values.size());
-  for (const std::int64_t value : values) deviations.push_back(std::abs(static_cast<double>(value) - middle));
-  return median(std::span<const double>(deviations));
+  std::vector<double> deviations = as_doubles(values);
+  for (double& one : deviations) one = std::abs(one - middle);
+  return median(deviations);
 }
 
-double mean(std::span<const std::int64_t> values) {
-  return mean_of(values);
-}
 double mean(std::span<const double> values) {
-  return mean_of(values);
+  throw_if_none(values);
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-std::optional<double> standard_deviation(std::span<const std::int64_t> values) {
-  return standard_deviation_of(values);
-}
 std::optional<double> standard_deviation(std::span<const double> values) {
-  return standard_deviation_of(values);
+  const double centre = mean(values);
+  if (values.size() == 1) return std::nullopt;
+  double sum = 0;
+  for (const double value : values) sum += (value - centre) * (value - centre);
+  return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
 Statistics describe(std::span<const std::int64_t> values) {
@@ -98,8 +69,8 @@ Statistics describe(std::span<const std::int64_t> values) {
   const auto [minimum, maximum] = std::ranges::minmax_element(values);
   result.minimum = *minimum;
   result.maximum = *maximum;
-  result.mean = mean(values);
-  result.standard_deviation = standard_deviation(values);
+  result.mean = mean(as_doubles(values));
+  result.standard_deviation = standard_deviation(as_doubles(values));
   return result;
 }
 

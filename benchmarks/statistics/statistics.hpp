@@ -27,7 +27,6 @@ struct Statistics {
 
 /// The `q`-quantile, 0 <= q <= 1 (else std::invalid_argument), by linear interpolation between the order
 /// statistics at q * (n - 1) (type 7 of Hyndman and Fan 1996, the default of R and NumPy).
-double quantile(std::span<const std::int64_t> values, double q);
 double quantile(std::span<const double> values, double q);
 
 /// The middle value, or the mean of the two middle ones.
@@ -37,11 +36,9 @@ double median(std::span<const double> values);
 /// Median of |value - median|, without the factor that makes it estimate a normal distribution's sigma.
 double median_absolute_deviation(std::span<const std::int64_t> values);
 
-double mean(std::span<const std::int64_t> values);
 double mean(std::span<const double> values);
 
 /// With n - 1 in the denominator; empty for a single value.
-std::optional<double> standard_deviation(std::span<const std::int64_t> values);
 std::optional<double> standard_deviation(std::span<const double> values);
 
 /// All of the first ones.

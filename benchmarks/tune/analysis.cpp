@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
-#include <span>
 
 #include "benchmarks/record/protocols.hpp"
 #include "benchmarks/statistics/statistics.hpp"
-#include "benchmarks/statistics/weighted.hpp"
 #include "benchmarks/tune/halving.hpp"
 
 namespace hullbench::tune {
@@ -39,39 +36,12 @@ std::optional<double> error_with(const MethodTuning& method, const MethodOnCase&
   return place == found.protocols.end() ? std::nullopt : std::optional(error_of(place->second));
 }
 
-/// Values of cases, weighted, and by base shape for intervals.
-class Weighted {
- public:
-  void add(const TuningCase& one, double value) {
-    members_.push_back(one.membership());
-    values_.push_back({value, 1});
-  }
-  bool empty() const { return values_.empty(); }
-  void weigh() {
-    const std::vector<double> weights = case_weights(members_);
-    for (std::size_t i = 0; i < values_.size(); ++i) values_[i].weight = weights[i];
-  }
-  double middle() const { return statistics::weighted_median(values_); }
-  std::optional<statistics::Interval> interval() const {
-    std::map<std::string, std::vector<statistics::WeightedValue>> by_shape;
-    for (std::size_t i = 0; i < values_.size(); ++i) by_shape[members_[i].shape].push_back(values_[i]);
-    std::vector<std::vector<statistics::WeightedValue>> clusters;
-    clusters.reserve(by_shape.size());
-    for (const auto& [shape, values] : by_shape) clusters.push_back(values);
-    return statistics::weighted_median_interval(clusters);
-  }
-
- private:
-  std::vector<Membership> members_;
-  std::vector<statistics::WeightedValue> values_;
-};
-
 std::optional<ProtocolScore> score_of(const Tuning& tuning, const MethodTuning& method,
                                       const std::string& protocol, const std::optional<TunedValue>& tuned) {
   ProtocolScore score;
   score.protocol = protocol;
-  Weighted errors;
-  Weighted regrets;
+  WeighedValues errors;
+  WeighedValues regrets;
   for (std::size_t i = 0; i < tuning.cases.size(); ++i) {
     const TuningCase& one = tuning.cases[i];
     if (one.side() != Side::kTest) continue;
@@ -79,18 +49,16 @@ std::optional<ProtocolScore> score_of(const Tuning& tuning, const MethodTuning& 
     if (!error) continue;
     ++score.cases;
     if (is_infinitely_bad(*error)) ++score.failed;
-    errors.add(one, *error);
+    errors.add(one.membership(), *error);
     const double best = best_error(method.cases[i]);
-    if (method.axis && !is_infinitely_bad(best)) regrets.add(one, *error - best);
+    if (method.axis && !is_infinitely_bad(best)) regrets.add(one.membership(), *error - best);
   }
   if (errors.empty()) return std::nullopt;
-  errors.weigh();
-  score.l2_median = errors.middle();
-  score.l2_interval = errors.interval();
+  score.l2_median = errors.median();
+  score.l2_interval = errors.median_interval();
   if (!regrets.empty()) {
-    regrets.weigh();
-    score.regret_median = regrets.middle();
-    score.regret_interval = regrets.interval();
+    score.regret_median = regrets.median();
+    score.regret_interval = regrets.median_interval();
   }
   return score;
 }
@@ -187,8 +155,7 @@ std::optional<TunedValue> choose_tuned(const MethodTuning& method) {
 }
 
 Quartiles quartiles_of(const std::vector<double>& values) {
-  const std::span<const double> all(values);
-  return {statistics::quantile(all, 0.25), statistics::median(all), statistics::quantile(all, 0.75)};
+  return {statistics::quantile(values, 0.25), statistics::median(values), statistics::quantile(values, 0.75)};
 }
 
 std::vector<ProtocolScore> protocol_scores(const Tuning& tuning, const MethodTuning& method,
@@ -203,19 +170,15 @@ std::vector<ProtocolScore> protocol_scores(const Tuning& tuning, const MethodTun
 std::vector<SearchCost> search_costs(const Tuning& tuning, const MethodTuning& method) {
   std::vector<SearchCost> costs;
   if (!method.axis) return costs;
-  std::vector<Weighted> errors(kSweepPoints + kRefinements);
-  std::size_t cases = 0;
+  std::vector<WeighedValues> errors(kSweepPoints + kRefinements);
   for (std::size_t i = 0; i < tuning.cases.size(); ++i) {
     if (tuning.cases[i].side() != Side::kTest || method.cases[i].sweep.empty()) continue;
-    ++cases;
     const std::vector<double> reached = errors_reached(method, method.cases[i]);
-    for (std::size_t k = 0; k < errors.size(); ++k) errors[k].add(tuning.cases[i], reached[k]);
+    for (std::size_t k = 0; k < errors.size(); ++k) errors[k].add(tuning.cases[i].membership(), reached[k]);
   }
-  if (cases == 0) return costs;
-  for (std::size_t k = 0; k < errors.size(); ++k) {
-    errors[k].weigh();
-    costs.push_back({k + 1, cases, errors[k].middle(), errors[k].interval()});
-  }
+  if (errors.front().empty()) return costs;
+  for (std::size_t k = 0; k < errors.size(); ++k)
+    costs.push_back({k + 1, errors[k].size(), errors[k].median(), errors[k].median_interval()});
   return costs;
 }
 

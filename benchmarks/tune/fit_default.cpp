@@ -10,7 +10,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <span>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -56,8 +55,8 @@ bool print_held_out(std::vector<MadeLimitCase>& cases, int tries, std::uint64_t 
     gains.push_back(way.score_of_code - way.score_of_found);
   }
   print("Ways to sample that a search did not see", table);
-  const double mean = statistics::mean(std::span<const double>(gains));
-  const double deviation = statistics::standard_deviation(std::span<const double>(gains)).value_or(0);
+  const double mean = statistics::mean(gains);
+  const double deviation = statistics::standard_deviation(gains).value_or(0);
   const double standard_error = deviation / std::sqrt(static_cast<double>(gains.size()));
   std::cout << "\nMean gain " << fixed(mean, 4) << ", standard error " << fixed(standard_error, 4) << ".\n";
   return mean > standard_error;
@@ -117,13 +116,9 @@ struct Errors {
   std::vector<double> rule, one_limit, former, vertex_spacing;
 };
 
-double median(const std::vector<double>& values) {
-  return statistics::median(std::span<const double>(values));
-}
-
 table::Cell median_and_mean(const std::vector<double>& errors) {
-  table::Cell cell = table::Number(100 * median(errors), 2);
-  cell.other = table::Number(100 * statistics::mean(std::span<const double>(errors)), 2);
+  table::Cell cell = table::Number(100 * statistics::median(errors), 2);
+  cell.other = table::Number(100 * statistics::mean(errors), 2);
   return cell;
 }
 
@@ -173,7 +168,8 @@ void print_test(std::vector<MadeLimitCase>& cases) {
     for (const auto& [n, of_n] : errors[sampling]) {
       row.push_back(median_and_mean(of_n.rule));
       row.push_back(median_and_mean(of_n.vertex_spacing));
-      row.emplace_back(table::Number(100 * (median(of_n.rule) / median(of_n.vertex_spacing) - 1), 1));
+      const double ratio = statistics::median(of_n.rule) / statistics::median(of_n.vertex_spacing);
+      row.emplace_back(table::Number(100 * (ratio - 1), 1));
     }
     beside.add_row(row);
   }
@@ -239,9 +235,8 @@ void print_voids() {
         holes[k] = static_cast<double>(hull.ring_ends.size()) - parts[k];
       });
       table.add_row({is_normal ? "normal" : "uniform in a square", n,
-                     table::Number(statistics::mean(std::span<const double>(holes)), 2),
-                     std::ranges::count(holes, 0),
-                     table::Number(statistics::mean(std::span<const double>(parts)), 2)});
+                     table::Number(statistics::mean(holes), 2), std::ranges::count(holes, 0),
+                     table::Number(statistics::mean(parts), 2)});
     }
   }
   print("Chance: 20 sets of points without a shape", table);
@@ -289,7 +284,7 @@ ExitCode fit(int tries, std::uint64_t seed, bool with_ablation) {
   std::cout << "# The core's automatic limit, fitted on " << training.size() << " training cases\n\n";
   table::print_item(
       "Score: the mean over ways to sample (uniform counts 1.5) of the mean of log(error / error "
-      "of the best single perimeter limit with the truth in hand), each at most 1.5.",
+      "of the best single perimeter limit with the truth in hand), each from -1.5 to 1.5.",
       std::cout);
   table::print_item(
       "Of the constants in the code: " + fixed(limit_score(training, {}, allowed_cores()), 4) + ".",

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <span>
 
 #include "benchmarks/statistics/statistics.hpp"
 #include "benchmarks/tune/search.hpp"
@@ -16,7 +15,7 @@ double fit_score(const std::vector<std::string>& shapes, const std::vector<doubl
     logarithms[shapes[i]].push_back(std::log(std::clamp(errors[i], kLeastError, kMostError)));
   if (logarithms.empty()) return 0;
   double sum = 0;
-  for (const auto& [shape, values] : logarithms) sum += statistics::mean(std::span<const double>(values));
+  for (const auto& [shape, values] : logarithms) sum += statistics::mean(values);
   return std::exp(sum / static_cast<double>(logarithms.size()));
 }
 
@@ -28,7 +27,7 @@ std::vector<CandidateScore> score_curve(const ErrorTable& table) {
     for (const std::vector<double>& of_case : table.errors) errors.push_back(of_case[k]);
     CandidateScore one = {.candidate = table.candidates[k], .score = fit_score(table.shapes, errors)};
     one.failures = static_cast<std::size_t>(std::ranges::count_if(errors, &is_infinitely_bad));
-    if (!errors.empty()) one.median = statistics::median(std::span<const double>(errors));
+    if (!errors.empty()) one.median = statistics::median(errors);
     curve.push_back(one);
   }
   return curve;

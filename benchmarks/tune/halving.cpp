@@ -6,7 +6,6 @@
 #include <set>
 #include <utility>
 
-#include "benchmarks/statistics/weighted.hpp"
 #include "benchmarks/tune/search.hpp"
 
 namespace hullbench::tune {
@@ -15,18 +14,12 @@ namespace {
 /// The weighted median over those of these cases that were searched; a failure where none was.
 double score_of(const Tuning& tuning, const MethodTuning& method, const std::vector<std::size_t>& places,
                 double position) {
-  std::vector<Membership> members;
-  std::vector<statistics::WeightedValue> errors;
+  WeighedValues errors;
   for (const std::size_t place : places) {
     const MethodOnCase& found = method.cases[place];
-    if (found.sweep.empty()) continue;
-    members.push_back(tuning.cases[place].membership());
-    errors.push_back({error_at(found, position), 1});
+    if (!found.sweep.empty()) errors.add(tuning.cases[place].membership(), error_at(found, position));
   }
-  if (errors.empty()) return kInfinitelyBad;
-  const std::vector<double> weights = case_weights(members);
-  for (std::size_t i = 0; i < errors.size(); ++i) errors[i].weight = weights[i];
-  return statistics::weighted_median(std::move(errors));
+  return errors.empty() ? kInfinitelyBad : errors.median();
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ double neighbour(const LimitKnob& knob, double value, Random& random) {
 
 LimitClimb climb(std::vector<MadeLimitCase>& cases, std::string start, const AutomaticConstants& from,
                  int tries, Random random, const std::vector<int>& cores) {
-  LimitClimb result = {std::move(start), from, from, limit_score(cases, from, cores), 0};
+  LimitClimb result = {std::move(start), from, limit_score(cases, from, cores), 0};
   result.score_to = result.score_from;
   for (int k = 0; k < tries; ++k) {
     AutomaticConstants tried = result.to;

@@ -54,9 +54,9 @@ std::vector<double> limit_errors(std::vector<MadeLimitCase>& cases, const Automa
                                  const std::vector<int>& cores);
 
 /// What the fit makes small. Of a case it is log(error / the error of the best single limit), so that hard
-/// cases do not outweigh easy ones, and at most 1.5, so that one failure does not outweigh them all; then the
-/// mean over the cases of a way to sample, then over these. Uniform points count 1.5, as what most users
-/// have.
+/// cases do not outweigh easy ones, cut to -1.5 to 1.5, so that neither one failure nor one way to sample
+/// outweighs them all; then the mean over the cases of a way to sample, then over these. Uniform points count
+/// 1.5, as what most users have.
 double limit_score(std::vector<MadeLimitCase>& cases, const AutomaticConstants& constants,
                    const std::vector<int>& cores);
 
@@ -80,7 +80,6 @@ const std::vector<LimitKnob>& limit_knobs();
 /// Where a search began and where it ended.
 struct LimitClimb {
   std::string start;
-  AutomaticConstants from;
   AutomaticConstants to;
   double score_from = 0;
   double score_to = 0;

@@ -1,6 +1,7 @@
 #include "benchmarks/tune/strata.hpp"
 
 #include <map>
+#include <utility>
 
 #include "benchmarks/tune/split.hpp"
 
@@ -31,6 +32,29 @@ std::vector<double> case_weights(const std::vector<Membership>& cases) {
                            static_cast<double>(shapes.at(one.shape))));
   }
   return weights;
+}
+
+void WeighedValues::add(Membership of_case, double value) {
+  members_.push_back(std::move(of_case));
+  values_.push_back(value);
+}
+
+std::vector<statistics::WeightedValue> WeighedValues::all() const {
+  const std::vector<double> weights = case_weights(members_);
+  std::vector<statistics::WeightedValue> result;
+  result.reserve(values_.size());
+  for (std::size_t i = 0; i < values_.size(); ++i) result.push_back({values_[i], weights[i]});
+  return result;
+}
+
+std::vector<std::vector<statistics::WeightedValue>> WeighedValues::by_shape() const {
+  const std::vector<statistics::WeightedValue> values = all();
+  std::map<std::string, std::vector<statistics::WeightedValue>> of_shape;
+  for (std::size_t i = 0; i < values.size(); ++i) of_shape[members_[i].shape].push_back(values[i]);
+  std::vector<std::vector<statistics::WeightedValue>> result;
+  result.reserve(of_shape.size());
+  for (auto& [shape, own] : of_shape) result.push_back(std::move(own));
+  return result;
 }
 
 }  // namespace hullbench::tune

@@ -6,8 +6,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "benchmarks/statistics/weighted.hpp"
 
 namespace hullbench::tune {
 
@@ -29,5 +32,26 @@ struct Membership {
 
 /// A weight for each of the cases, which are one at least: they sum to 1.
 std::vector<double> case_weights(const std::vector<Membership>& cases);
+
+/// A value for each of some cases, which are weighed among themselves.
+class WeighedValues {
+ public:
+  void add(Membership of_case, double value);
+  std::size_t size() const { return values_.size(); }
+  bool empty() const { return values_.empty(); }
+  /// In the order in which they were added.
+  std::vector<statistics::WeightedValue> all() const;
+  /// The same by base shape.
+  std::vector<std::vector<statistics::WeightedValue>> by_shape() const;
+  /// Needs one value at least.
+  double median() const { return statistics::weighted_median(all()); }
+  std::optional<statistics::Interval> median_interval() const {
+    return statistics::weighted_median_interval(by_shape());
+  }
+
+ private:
+  std::vector<double> values_;
+  std::vector<Membership> members_;
+};
 
 }  // namespace hullbench::tune

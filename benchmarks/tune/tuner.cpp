@@ -49,10 +49,6 @@ class DrawnCases {
   std::vector<Place> places_;
 };
 
-std::string kind_of(const MultiPolygon& truth) {
-  return kind_of_shape(truth.size(), metrics::count_holes(truth));
-}
-
 void add_methods(run::Workbench& bench, const TunerOptions& options) {
   for (const std::string& name : options.methods)
     bench.add(options.find_method(name), {options.mem_limit_mib, std::nullopt});
@@ -187,7 +183,8 @@ class TuningThread {
     one.dataset_sha256 = drawn_->set().sha256;
     one.n = static_cast<std::int64_t>(drawn_->set().points.size());
     one.spacing = spacing_;
-    one.kind = kind_of(drawn_->set().ground_truth);
+    const MultiPolygon& truth = drawn_->set().ground_truth;
+    one.kind = kind_of_shape(truth.size(), metrics::count_holes(truth));
   }
 
   const TuningCase& tuning_case() const { return shared_.tuning.cases[which_case_]; }

@@ -9,7 +9,6 @@
 #include "benchmarks/statistics/statistics.hpp"
 #include "benchmarks/tune/analysis.hpp"
 #include "benchmarks/tune/search.hpp"
-#include "benchmarks/worker/protocol.hpp"
 
 namespace hullbench::tune {
 namespace {
@@ -285,7 +284,7 @@ std::vector<std::string> document_notes(const json& summary) {
   for (const json& method : summary.at("methods")) {
     if (method.at("installed").get<bool>()) continue;
     notes.push_back(method.at("title").get<std::string>() +
-                    " does not start here: " + method.at("detail").get<std::string>() + ".");
+                    " does not start here: " + sentence(method.at("detail").get<std::string>()));
   }
   return notes;
 }

@@ -101,9 +101,6 @@ void MethodSession::begin_start() {
                                           "there is no program " + method_.command.front(), method_.install)
                            : failed_start(record::Status::kError, error.what());
     return;
-  } catch (const std::runtime_error& error) {
-    start_reply_ = failed_start(record::Status::kError, error.what());
-    return;
   }
   worker_->send({{"request", "hello"}, {"protocol", kProtocolVersion}});
 }

@@ -184,7 +184,8 @@ ExitCode run_worker(const AdapterEntry& entry) {
       channel.write_line(reply);
       if (!adapter) return kExitError;
     } else if (!adapter || kind.empty()) {
-      channel.write_line(error_reply("error", "the first request must be 'hello'"));
+      channel.write_line(
+          error_reply("error", adapter ? "this is no request" : "the first request must be 'hello'"));
       return kExitError;
     } else {
       channel.write_line(guarded([&] { return answer(*adapter, kind, request); }));

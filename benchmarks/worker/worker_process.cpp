@@ -14,7 +14,6 @@
 #include <csignal>
 #include <cstring>
 #include <fstream>
-#include <stdexcept>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -52,9 +51,8 @@ void close_fd(int& fd) {
 struct Pipe {
   Pipe() {
     std::array<int, 2> ends{};
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
-      throw std::runtime_error("cannot make a pipe: " + std::generic_category().message(errno));
-    }
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+      throw std::system_error(errno, std::generic_category(), "cannot make a pipe");
     read_end = ends[0];
     write_end = ends[1];
   }
@@ -165,6 +163,12 @@ bool write_all(int fd, std::string_view bytes) {
   }
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
   return complete;
+}
+
+/// "SIGSEGV" for 11.
+std::string signal_name(int signal) {
+  const char* name = ::sigabbrev_np(signal);
+  return name ? "SIG" + std::string(name) : "signal " + std::to_string(signal);
 }
 
 /// A signal that ends a whole job (a time limit, a shutdown) reaches the worker and the harness, in any
@@ -441,11 +445,6 @@ std::optional<std::int64_t> WorkerProcess::peak_memory_bytes() const {
 
 void WorkerProcess::close_pipes() {
   for (int* fd : {&input_, &replies_, &errors_}) close_fd(*fd);
-}
-
-std::string signal_name(int signal) {
-  const char* name = ::sigabbrev_np(signal);
-  return name ? "SIG" + std::string(name) : "signal " + std::to_string(signal);
 }
 
 }  // namespace hullbench::worker

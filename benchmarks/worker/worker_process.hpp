@@ -109,7 +109,4 @@ class WorkerProcess {
   std::chrono::steady_clock::time_point sent_;
 };
 
-/// "SIGSEGV" for 11.
-std::string signal_name(int signal);
-
 }  // namespace hullbench::worker

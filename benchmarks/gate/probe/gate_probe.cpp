@@ -100,8 +100,7 @@ std::int64_t nanoseconds(Clock::duration duration) {
 Times measure(const Case& input, int repeats, bool once) {
   Times times;
   hullbench::StepData data;
-  data.points = input.points.data();
-  data.point_count = input.points.size();
+  data.points = input.points;
   data.alpha = input.alpha;
   data.extractor.extract(input.points, {.alpha = input.alpha});  // not timed: memory grows, caches fill
   for (int repeat = 0; repeat < repeats; ++repeat) {

@@ -1,10 +1,8 @@
 #include "benchmarks/gate/probe/measured_steps.hpp"
 
-#include <span>
-
 extern "C" void gate_step(hullbench::Step step, hullbench::StepData& data) {
   if (step == hullbench::Step::kTriangulation) {
-    data.extractor.triangulate(std::span(data.points, data.point_count));
+    data.extractor.triangulate(data.points);
   } else {
     data.extractor.extract_regions({.alpha = data.alpha});
     data.shape = &data.extractor.extract_polygons();

@@ -1,7 +1,7 @@
 // The calls that are measured.
 #pragma once
 
-#include <cstddef>
+#include <span>
 
 #include "polylidar/concave_hull.hpp"
 
@@ -15,8 +15,7 @@ enum class Step {
 /// What a step works on and makes.
 struct StepData {
   polylidar::Extractor extractor;
-  const polylidar::Point* points = nullptr;
-  std::size_t point_count = 0;
+  std::span<const polylidar::Point> points;
   double alpha = 0;
   /// The result of the last kOutline, valid until the extractor's next call.
   const polylidar::IndexedMultiPolygon* shape = nullptr;
