@@ -134,7 +134,8 @@ def compare(a: list[Experiment], b: list[Experiment], told: dict[str, Any], name
         methods.append(MethodChange(series, label([*a, *b], series), judged[series], one))
     # Stable: the rest stays in the order of A.
     pairs.sort(key=lambda pair: FIRST.index(pair.change) if pair.change in FIRST else len(FIRST))
-    return Comparison(a, b, names, pairs, methods, told["only_a"], told["only_b"], told["notes"], (_machines(a), _machines(b)))
+    machines_a, machines_b = (set().union(*(one.machines() for one in side)) for side in (a, b))
+    return Comparison(a, b, names, pairs, methods, told["only_a"], told["only_b"], told["notes"], (machines_a, machines_b))
 
 
 def read_compared(path: Path) -> dict[str, Any]:
@@ -184,15 +185,6 @@ def _is_of(row: Row, status: str, median_ns: float | None) -> bool:
     if row.status != status:
         return False
     return median_ns is None or (bool(row.raw["time_ns"]) and math.isclose(statistics.median(row.raw["time_ns"]), median_ns))
-
-
-def _machines(experiments: Sequence[Experiment]) -> set[str]:
-    """Where the rows were measured, or their run where a row does not say."""
-    return {
-        row.raw.get("machine") or experiment.report["environment"]["machine_id"]
-        for experiment in experiments
-        for row in experiment.rows
-    }
 
 
 # The table and the forest plot: all pairs as columns.
@@ -263,7 +255,9 @@ def both_charts(comparison: Comparison) -> list[dict[str, Any]]:
         other = others.get(_chart_key(comparison.a, chart))
         if other is None:
             continue
-        x = sorted({*chart["x"], *other["x"]}) if chart["kind"] == "n" else list(dict.fromkeys([*chart["x"], *other["x"]]))
+        x = list(dict.fromkeys([*chart["x"], *other["x"]]))
+        if chart["kind"] != "shape":  # shapes stay in the records' order
+            x.sort()
         made.append(
             {key: chart[key] for key in ("id", "experiment", "title", "kind", "axis")}
             | {"x": x, "a": _placed(chart, x), "b": _placed(other, x)}

@@ -26,7 +26,7 @@ SIGNS = {
 MOST_NAMED = 12
 
 # Wholly different in any two runs, so a difference says nothing.
-ALWAYS_OTHER = {"Begun", "Load before the run"}
+ALWAYS_OTHER = {"Begun", "Load before the run", "Temperature, °C"}
 
 NOT_EQUAL = (
     "“Not told apart” is not “equal”: no difference was shown, which does not say that there is none. "

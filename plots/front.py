@@ -52,17 +52,15 @@ def make_front(folder: Path) -> Front:
 def front_html(front: Front, strip: str) -> str:
     if not front.ratings:
         return f"<p class='lead'>{text(front.why_empty)}</p>{strip}"
-    first, *others = front.ratings
     timed = {one.name: one for one in front.timed}
-    parts = [f"<p class='lead'>{lead_sentence(first, timed.get(first.division.name))}</p>"]
-    parts.append(charts_html(timed.get(first.division.name)))
-    parts += [_league(first, timed.get(first.division.name), front.pages), strip]
-    for other in others:
-        own = timed.get(other.division.name)
-        said = lead_sentence(other, own)
-        shown = f"<p class='lead'>{said}</p>{charts_html(own)}{_league(other, own, front.pages)}"
-        parts.append(details(f"Methods that {KNOWS[other.division.name]}", shown, " class='wide'"))
-    return "".join(parts)
+
+    def shown(rating: Rating) -> str:
+        own = timed.get(rating.division.name)
+        return f"<p class='lead'>{lead_sentence(rating, own)}</p>{charts_html(own)}{_league(rating, own, front.pages)}"
+
+    first, *others = front.ratings
+    more = (details(f"Methods that {KNOWS[one.division.name]}", shown(one), " class='wide'") for one in others)
+    return shown(first) + strip + "".join(more)
 
 
 # The sentence.

@@ -38,11 +38,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--out", type=Path, default=Path("comparison.html"), metavar="FILE", help="the file to write (comparison.html)"
     )
     options = parser.parse_args(arguments)
-    return exit_code_of("make_comparison.py", lambda: write(options))
-
-
-def write(options: argparse.Namespace) -> None:
-    write_page(options.out, make_page(options.a, options.b, options.compared))
+    paths = (options.a, options.b, options.compared)
+    return exit_code_of("make_comparison.py", lambda: write_page(options.out, make_page(*paths)))
 
 
 def make_page(a: Path, b: Path, compared: Path) -> str:
@@ -72,7 +69,7 @@ def _sections(comparison: Comparison) -> list[Section]:
 def _report(comparison: Comparison) -> dict[str, Any]:
     """What the page's scripts know from the start; puts the methods in the usual order."""
     styles = method_styles([*comparison.a, *comparison.b])
-    listed = entrants([*comparison.a, *comparison.b], styles)
+    listed = entrants([*comparison.a, *comparison.b])
     order = [entrant["key"] for entrant in listed]
     comparison.methods.sort(key=lambda one: order.index(one.series.key))
     return {

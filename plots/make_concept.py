@@ -37,9 +37,7 @@ def points() -> list[tuple[float, float]]:
 def hull(program: str, cloud: list[tuple[float, float]], limit: list[str]) -> str:
     text = "".join(f"{x},{y}\n" for x, y in cloud)
     done = subprocess.run([program, "hull", "-", *limit], input=text, capture_output=True, text=True, check=True)
-    shape = json.loads(done.stdout)
-    shape = shape["features"][0]["geometry"] if shape["type"] == "FeatureCollection" else shape.get("geometry", shape)
-    polygons = shape["coordinates"] if shape["type"] == "MultiPolygon" else [shape["coordinates"]]
+    polygons = json.loads(done.stdout)["geometry"]["coordinates"]
     return " ".join("M" + " ".join(f"{x:g},{y:g}" for x, y in ring[:-1]) + "Z" for polygon in polygons for ring in polygon)
 
 

@@ -23,7 +23,6 @@ SIDE = 1.25  # inches of a picture
 
 
 def draw(axes: Axes, points: list[list[float]], rings: list[list[list[float]]], title: str) -> None:
-    axes.set_axis_off()
     axes.set_aspect("equal")
     axes.set_title(title, fontsize=5.5, pad=2)
     outline = [Outline([*ring, ring[0]], closed=True) for ring in rings]

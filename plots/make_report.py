@@ -37,11 +37,8 @@ STYLES = ("report.css", "gallery.css", "front.css")
 def main(arguments: Sequence[str] | None = None) -> int:
     parser = options_of_run("make_report.py", "Writes the report of a run as one HTML file.", "report.html")
     options = parser.parse_args(arguments)
-    return exit_code_of("make_report.py", lambda: write(options.out or options.run / "report.html", options.run))
-
-
-def write(out: Path, folder: Path) -> None:
-    write_page(out, make_page(load(folder), folder))
+    out = options.out or options.run / "report.html"
+    return exit_code_of("make_report.py", lambda: write_page(out, make_page(load(options.run), options.run)))
 
 
 def make_page(experiments: Sequence[Experiment], folder: Path) -> str:
@@ -49,12 +46,13 @@ def make_page(experiments: Sequence[Experiment], folder: Path) -> str:
     title = "Concave hulls: " + (experiments[0].title if len(experiments) == 1 else "the whole suite")
     front = make_front(folder)
     kept = folder / "report.html" if is_kept(folder, experiments) else None
-    report = {**_report(experiments), "leader": _leader(front)}
+    leader = front.ratings[0].standings[0].series.key if front.ratings else None
+    report = {**_report(experiments), "leader": leader}
     sections = _sections(experiments, folder, front, kept)
     parts = {**code(STYLES, "main.js"), "colours": colours(report["methods"])}
     if kept is not None and any(experiment.is_thinned for experiment in experiments):
         kept_page = kept.read_text(encoding="utf-8")  # has what the records no longer have
-        report.update({name: kept_data(kept_page, "report")[name] for name in ("metrics",)})
+        report["metrics"] = kept_data(kept_page, "report")["metrics"]
         results = [data(name, kept_data(kept_page, name)) for name in ("charts", "rows")]
     else:
         results = [data("charts", pack(charts(experiments))), data("rows", pack(columns(experiments)))]
@@ -78,7 +76,7 @@ def _sections(experiments: Sequence[Experiment], folder: Path, front: Front, kep
     parameters = parameters_html(experiments, folder)
     return [
         Section("summary", "Summary", "Summary", front_html(front, strip)),
-        Section("where", "Who is good at what", "Who is good at what", where_html(front) or "<p>There are no ratings.</p>"),
+        Section("where", "Who is good at what", "Who is good at what", where_html(front)),
         Section("results", "Charts", "Time and error", place("charts", by_script), testid="charts"),
         Section("gallery", "Gallery", "Gallery", place("gallery"), hidden=True),
         Section("runs", "All runs", "All runs", place("table")),
@@ -92,27 +90,14 @@ def _sections(experiments: Sequence[Experiment], folder: Path, front: Front, kep
 
 def _report(experiments: Sequence[Experiment]) -> dict[str, Any]:
     """What the page's scripts know from the start."""
-    styles = method_styles(experiments)
     rows = [row for experiment in experiments for row in experiment.rows]
     metrics = MetricTable(experiments)
     return {
-        "methods": styles,
-        "entrants": entrants(experiments, styles),
-        "experiments": [
-            {"name": experiment.name, "title": experiment.title, "options": _options(experiment)} for experiment in experiments
-        ],
+        "methods": method_styles(experiments),
+        "entrants": entrants(experiments),
+        "experiments": [{"name": one.name, "title": one.title, "seed": str(one.report["seed"])} for one in experiments],
         "metrics": [metrics.entry(name) for name in metrics.names(rows)],
     }
-
-
-def _leader(front: Front) -> str | None:
-    return front.ratings[0].standings[0].series.key if front.ratings else None
-
-
-def _options(experiment: Experiment) -> str:
-    """What 'hullbench run' needs beside the plan's name for the same points: the seed, where it is not the usual 1."""
-    seed = experiment.report["seed"]
-    return "" if seed == 1 else f" --seed {seed}"
 
 
 if __name__ == "__main__":

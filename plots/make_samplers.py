@@ -50,8 +50,7 @@ def points_of(program: Path, sampler: str) -> np.ndarray:
 
 def draw(program: Path, out: Path) -> None:
     outline = json.loads((ROOT / "datasets" / "shapes" / "ca.geojson").read_text())
-    polygons = outline["geometry"]["coordinates"]
-    rings = [polygons[0]] if outline["geometry"]["type"] == "Polygon" else [polygon[0] for polygon in polygons]
+    rings = [polygon[0] for polygon in outline["geometry"]["coordinates"]]
     figure, panels = plt.subplots(4, 4, figsize=(11, 12.4), constrained_layout=True)
     for sampler, panel in zip(SAMPLERS, panels.flat):
         points = points_of(program, sampler)

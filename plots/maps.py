@@ -12,7 +12,7 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 
 from records import Picture
-from style import no_frame, role_color
+from style import role_color
 
 Place = tuple[float, float]
 Polygons = Sequence[Sequence[Sequence[Place]]]  # of rings: the shell, then its holes
@@ -86,10 +86,11 @@ def truth_and_points(axes: Axes, picture: Picture, width: float, size: float) ->
 
 
 def frame(axes: Axes, picture: Picture, margin: float = 0.03) -> None:
-    """The box of the points and the ground truth, with a margin in parts of its larger side; no ticks."""
+    """The box of the points and the ground truth, with a margin in parts of its larger side; no ticks, no grid."""
     places = np.asarray(picture.points() + [place for polygon in picture.ground_truth() for place in polygon[0]])
     low, high = places.min(axis=0), places.max(axis=0)
     gap = margin * float(max(high - low))
     axes.set_xlim(low[0] - gap, high[0] + gap)
     axes.set_ylim(low[1] - gap, high[1] + gap)
-    no_frame(axes)
+    axes.set_aspect("equal")
+    axes.axis("off")

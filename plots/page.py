@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from records import Experiment, RecordError
-from report_common import label, method_look, method_title, text
+from report_common import in_order, label, method_look, method_title, text
 
 PLOTS = Path(__file__).resolve().parent
 PAGE = PLOTS / "report"
@@ -111,11 +111,10 @@ def method_styles(experiments: Sequence[Experiment]) -> dict[str, Any]:
     return styles
 
 
-def entrants(experiments: Sequence[Experiment], styles: dict[str, Any]) -> list[dict[str, str]]:
+def entrants(experiments: Sequence[Experiment]) -> list[dict[str, str]]:
     """Every method under every protocol that it has rows of, in the order in which the page names them."""
-    series = {one for experiment in experiments for one in experiment.series()}
-    order = sorted(series, key=lambda one: (styles[one.method]["order"], one.method, one.protocol != "paper", one.protocol))
-    return [{"key": one.key, "method": one.method, "protocol": one.protocol, "label": label(experiments, one)} for one in order]
+    every = in_order(one for experiment in experiments for one in experiment.series())
+    return [{"key": one.key, "method": one.method, "protocol": one.protocol, "label": label(experiments, one)} for one in every]
 
 
 def write_page(out: Path, page: str) -> None:

@@ -101,7 +101,7 @@ def pack(experiments: Iterable[Experiment], budget_bytes: int = BUDGET_BYTES) ->
         entries = [(case, case.drawing().entry(limit)) for case in cases]
         if _size(entries) <= room:
             break
-    if _size(entries) > room:
+    else:
         left_out = _leave_out_giants(cases)
         entries = [(case, case.drawing().entry(limit)) for case in cases]
     return _document(experiments, cases, _within(entries, room), limit, left_out)

@@ -114,7 +114,7 @@ def read(path: Path) -> Results:
             method, _, protocol = line["method"].partition("/")
             seconds = float(line["time"]) if line["time"] else math.nan
             values[Series(method, protocol), key] = (float(line["error"]), seconds)
-    except (OSError, UnicodeDecodeError, KeyError, TypeError, ValueError) as error:
+    except (OSError, csv.Error, TypeError, ValueError) as error:
         said = f"not as 'hullbench league --csv' writes it: {error}"
         raise RecordError(f"{path} cannot be read ({said}).") from error
     entrants = sorted({entrant for entrant, _ in values})

@@ -105,9 +105,9 @@ class Row:
     fastest = _told("fastest", False)  # beyond doubt, of all methods on the same points, as the program judges it
 
     @property
-    def order(self) -> int:
-        """Of its time beside the core's on the same points, as the program judges it: -1 faster, 1 slower, 0 undecided."""
-        return {"faster": -1, "slower": 1}.get(self.told.get("order"), 0)
+    def faster(self) -> bool:
+        """Than the core on the same points, beyond doubt, as the program judges it."""
+        return self.told.get("order") == "faster"
 
     @property
     def series(self) -> Series:
@@ -199,6 +199,10 @@ class Experiment:
     def series(self) -> list[Series]:
         """In the order of the records, which is that of the plan."""
         return list(dict.fromkeys(row.series for row in self.rows))
+
+    def machines(self) -> set[str]:
+        """Where the rows were measured, or their run where a row does not say."""
+        return {row.raw.get("machine") or self.report["environment"]["machine_id"] for row in self.rows}
 
     def dataset_title(self, name: str) -> str:
         """California; for a member of a family, Simulated floor 3."""

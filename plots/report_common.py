@@ -39,6 +39,11 @@ def method_look(method: str) -> dict[str, Any]:
     return METHOD_LOOKS.get(method) or {"title": method, "order": 1000, "paper": False, **spare}
 
 
+def in_order(series: Iterable[Series]) -> list[Series]:
+    """Without repetitions: the paper's methods first, then as methods.json says, then by name."""
+    return sorted(set(series), key=lambda one: (method_look(one[0])["order"], one[0], one[1] != "paper", one[1]))
+
+
 def method_title(experiments: Sequence[Experiment], method: str) -> str:
     for experiment in experiments:
         if method in experiment.methods:
@@ -53,7 +58,7 @@ def label(experiments: Sequence[Experiment], series: Series) -> str:
 
 def short_name(series: Series, among: Iterable[Series]) -> str:
     """The short title, with the protocol where the method is among the series more than once."""
-    title = METHOD_LOOKS.get(series[0], {}).get("title", series[0])
+    title = method_look(series[0])["title"]
     return f"{title} ({series[1]})" if sum(one[0] == series[0] for one in set(among)) > 1 else title
 
 

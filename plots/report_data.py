@@ -238,7 +238,7 @@ def _series(experiment: Experiment, rows: Sequence[Row], place: Callable[[Row], 
     names = MetricTable([experiment]).charted_names(rows)
     for row in rows:
         key, x = row.series.key, place(row)
-        if row.ok and row.median_ns is not None:
+        if _has_result(row):
             series[key].append(_point(row, x, names))
         else:
             missing[key].append({"x": x, "run": row.name, "status": row.status})

@@ -9,7 +9,7 @@ from markup import Columns, details, facts_of, finding, named, notes_of, row_of,
 from records import Experiment, Series
 from report_common import STATUS_WORDS, count_of, label, number, protocol_words, text
 from report_data import BRIEF_METRICS, is_brief, title_of
-from report_summary import Ratio, Standing, Summary, failure_sentences, headline_sentences, noise_sentence, span
+from report_summary import Ratio, Standing, Summary, failure_sentences, headline_sentences, mixture_sentence, noise_sentence
 from report_tables import documents, table_html, tables_beside
 
 EQUAL_WORK = (
@@ -20,18 +20,21 @@ EQUAL_WORK = (
 
 def summary_html(experiments: Sequence[Experiment], summaries: Sequence[Summary]) -> str:
     standings = details("Standing of every method", standings_table(summaries))
-    notes = [EQUAL_WORK, noise_sentence(experiments), _reading(summaries), _brackets(experiments)]
+    of_times = filter(None, [EQUAL_WORK, noise_sentence(experiments), mixture_sentence(experiments)])
+    notes = [*of_times, _reading(summaries), _brackets(experiments)]
     return "\n".join([_headline(summaries), _failures(summaries), standings]) + notes_of(notes)
 
 
 def _reading(summaries: Sequence[Summary]) -> str:
     said = (
         "A ratio of times is the median over the rounds of a case, in which both were measured right after one another; "
-        "of the cases the median is told. A case that only the method failed has the ratio ∞; a time is better (in bold) only where "
-        "the 95 % interval of the ratio leaves out 1, or, with too few repetitions for an interval, where its median is at most a tenth. The fastest is faster in this sense than every other method; where none is, "
-        "the first ones are not distinguishable."
+        "of the cases the median is told. A case that only the method failed has the ratio ∞. In a case a method is faster "
+        "where the 95 % interval of the ratio leaves out 1, or, with too few repetitions for an interval, where its longest "
+        "time is at most a tenth of the other’s shortest. A ratio is in bold where it is below 1 and the method is faster "
+        "(or more accurate) in one case at least, or alone solves one. The fastest of a case is faster than every other "
+        "method; where none is, the first ones are not distinguishable."
     )
-    alone = [one.title for one in summaries if one.without_interval]
+    alone = [one.experiment.title for one in summaries if one.without_interval]
     return said + (f" Without an interval, as each time was taken once: {', '.join(alone)}." if alone else "")
 
 
@@ -41,7 +44,7 @@ def _brackets(experiments: Sequence[Experiment]) -> str:
 
 
 def _headline(summaries: Sequence[Summary]) -> str:
-    findings = [(one.title, said) for one in summaries for said in headline_sentences(one)]
+    findings = [(one.experiment.title, said) for one in summaries for said in headline_sentences(one)]
     title = "Beside the fastest method with the same polygons"
     return finding("summary-headline", title, _sentences(findings)) if findings else ""
 
@@ -70,7 +73,7 @@ _STANDING = {
 def standings_table(summaries: Sequence[Summary], method: str | None = None) -> str:
     """Of every method in every experiment, or of one; empty where there is none."""
     rows = "".join(
-        f"<tbody><tr class='group'><th colspan='{len(_STANDING)}' scope='rowgroup'>{text(one.title)}</th></tr>{told}</tbody>"
+        f"<tbody><tr class='group'><th colspan='{len(_STANDING)}' scope='rowgroup'>{text(one.experiment.title)}</th></tr>{told}</tbody>"
         for one in summaries
         if (told := "".join(_standing(one, each) for each in one.standings if method in (None, each.series.method)))
     )
@@ -88,13 +91,14 @@ def _standing(summary: Summary, one: Standing) -> str:
             return "1" if is_core else "–"
         mark = " better" if value.median < 1 and value.lower_in else ""
         better = "<span class='hidden'> better</span>" if mark else ""
-        said = f"{span(value)}, {count_of(value.cases, 'case')}" if value.cases > 1 else "1 case"
+        several = f"from {number(value.low)} to {number(value.high)}, {count_of(value.cases, 'case')}"
+        said = several if value.cases > 1 else "1 case"
         return f"<td class='number{mark}'>{text(number(value.median))}{better}<small>{text(said)}</small></td>"
 
     def share(count: int, of: int) -> str:
         return f"{count} of {of}" if of and one.results else "–"
 
-    attributes = f" data-entrant='{text(one.series.key)}' data-experiment='{text(summary.name)}'"
+    attributes = f" data-entrant='{text(one.series.key)}' data-experiment='{text(summary.experiment.name)}'"
     cells = [
         named(one.series.method, text(one.label)),
         f"{len(one.results)} of {one.planned}",
@@ -115,10 +119,8 @@ _PARAMETERS = "parameters"
 
 
 def paper_html(experiments: Sequence[Experiment], folder: Path) -> str:
-    made = ""
     claims = [(experiment, claim) for experiment in experiments for claim in experiment.report["summary"]["claims"]]
-    if claims:
-        made += _claims(claims)
+    made = _claims(claims) if claims else ""
     made += "".join(map(table_html, tables_beside(documents(experiments, folder), _DIFFERENCES)))
     return made or "<p>The records compare nothing with the paper.</p>"
 
@@ -258,7 +260,7 @@ def environment_html(experiments: Sequence[Experiment]) -> str:
     for name, values in facts.items():
         told = [f"{text(value)} <small>{text(where)}</small>" for where, value in values.items()]
         first, *others = set(values.values())
-        said[name] = "<br>".join(told) if others else text(first)
+        said[name] = "<br>".join(told) if others or len(values) < len(experiments) else text(first)
     return facts_of(said, "environment-facts") + _noise(experiments) + _versions(experiments)
 
 
@@ -295,10 +297,10 @@ def environment_facts(report: dict[str, Any]) -> dict[str, str]:
         "Memory": f"{number(environment['memory_bytes'] / 2**30)} GiB",
         "Load before the run": ", ".join(map(number, load)) + " (1, 5, 15 minutes)" if load else "unknown",
         "System": f"{known(environment['os'])}; {environment['kernel'] or 'unknown kernel'}",
-        "Address randomisation": known(environment["aslr"]),
+        "Address randomisation": known({0: "off", 1: "on but for the heap", 2: "on"}.get(environment["aslr"])),
         "Huge pages": ", ".join(f"{name}: {known(value)}" for name, value in environment.get("huge_pages", {}).items())
         or "asked for by Polylidar alone",
-        "Temperature": known(environment.get("temperature_celsius")),
+        "Temperature, °C": known(environment.get("temperature_celsius")),
         "Compiler": f"{compiler['id']} {compiler['version']}, {compiler['build_type']}, {compiler['flags']}; "
         f"{compiler['statement']}",
         "Libraries": ", ".join(f"{name} {value}" for name, value in environment["libraries"].items()),
@@ -309,7 +311,8 @@ def environment_facts(report: dict[str, Any]) -> dict[str, str]:
     if report.get("resumed"):
         facts["Gone on with"] = ", ".join(report["resumed"])
     if report.get("merged"):
-        facts["Merged from"] = ", ".join(f"shard {one['shard']} of {one['created']}" for one in report["merged"])
+        parts = [(f"shard {one['shard']}" if one["shard"] else "a run", one["created"]) for one in report["merged"]]
+        facts["Merged from"] = ", ".join(f"{what} of {when}" for what, when in parts)
     return facts
 
 

@@ -24,12 +24,10 @@ class Ratio:
     """An entrant's values over the core's, a case that only one of them solved included."""
 
     cases: int
-    failures: int  # of these: only the core has a result
     median: float
     low: float
     high: float
     lower_in: int  # cases in which the entrant's value is lower than the core's beyond doubt
-    higher_in: int
 
 
 @dataclass
@@ -53,16 +51,12 @@ class Standing:
 class Summary:
     """Of one experiment."""
 
-    name: str
-    title: str
+    experiment: Experiment
     standings: list[Standing]
     core: Standing | None  # the core's standing, under the paper's protocol if there are several
     contested: int  # cases with results of two methods or more
-    fastest_in: Counter[str]  # by method: the contested cases in which one of its entrants is the fastest
     without_interval: bool  # of no time there is an interval: one repetition
     compared_errors: int
-    headline: dict[str, Any] | None  # as results/report.schema.json; None: no rival, or an older report
-    titles: dict[str, str]  # of the methods in it
 
 
 def summarise(experiment: Experiment) -> Summary:
@@ -77,27 +71,15 @@ def summarise(experiment: Experiment) -> Summary:
     for one in everyone:
         for case, row in one.results.items():
             by_case[case].append((one, row))
-    contests = [contest for contest in by_case.values() if len({row.method for _, row in contest}) > 1]
-    # Two methods cannot both be the fastest, but two protocols of one can.
-    fastest_in = Counter(method for contest in contests for method in {row.method for _, row in contest if row.fastest})
+    contested = sum(len({row.method for _, row in contest}) > 1 for contest in by_case.values())
     compared = sum(_award_error(contest) for contest in by_case.values())
     for one in everyone:
         if core is not None and one is not core:
-            one.time = _ratio(one, core, _time_ratio, lambda row, _: row.order)
-            one.error = _ratio(one, core, _error_ratio, _error_order)
+            one.time = _ratio(one, core, _time_ratio, lambda row, _: row.faster)
+            one.error = _ratio(one, core, _error_ratio, _is_more_accurate)
     timed = [row for one in everyone for row in one.results.values()]
-    return Summary(
-        experiment.name,
-        experiment.title,
-        everyone,
-        core,
-        len(contests),
-        fastest_in,
-        bool(timed) and all(row.interval() is None for row in timed),
-        compared,
-        experiment.report["summary"].get("headline"),
-        {name: method["title"] for name, method in experiment.methods.items()},
-    )
+    without_interval = bool(timed) and all(row.interval() is None for row in timed)
+    return Summary(experiment, everyone, core, contested, without_interval, compared)
 
 
 def _count(standing: Standing, row: Row) -> None:
@@ -123,11 +105,9 @@ def _award_error(contest: list[tuple[Standing, Row]]) -> int:
     return 1
 
 
-def _error_order(one: Row, other: Row) -> int:
+def _is_more_accurate(one: Row, other: Row) -> bool:
     first, second = one.metric("l2"), other.metric("l2")
-    if abs(first - second) <= SAME_ERROR * max(first, second):
-        return 0
-    return (first > second) - (first < second)
+    return second - first > SAME_ERROR * second
 
 
 def _time_ratio(one: Row, other: Row) -> float | None:
@@ -148,21 +128,19 @@ def _error_ratio(one: Row, other: Row) -> float | None:
 
 
 def _ratio(
-    one: Standing, core: Standing, ratio_of: Callable[[Row, Row], float | None], order: Callable[[Row, Row], int]
+    one: Standing, core: Standing, ratio_of: Callable[[Row, Row], float | None], is_lower: Callable[[Row, Row], bool]
 ) -> Ratio | None:
-    orders: Counter[int] = Counter()
-    ratios = []
+    ratios, lower_in = [], 0
     for case in one.results.keys() & core.results.keys():
         row, beside = one.results[case], core.results[case]
         if (ratio := ratio_of(row, beside)) is not None:
             ratios.append(ratio)
-            orders[order(row, beside)] += 1
+            lower_in += is_lower(row, beside)
     if not ratios:
         return None
     only_core, only_one = len(one.failed & core.results.keys()), len(core.failed & one.results.keys())
     ratios += [math.inf] * only_core + [0.0] * only_one
-    orders.update({1: only_core, -1: only_one})
-    return Ratio(len(ratios), only_core, median(ratios), min(ratios), max(ratios), orders[-1], orders[1])
+    return Ratio(len(ratios), median(ratios), min(ratios), max(ratios), lower_in + only_one)
 
 
 # Sentences. They are plain text: whoever puts them into a page escapes them.
@@ -170,15 +148,16 @@ def _ratio(
 
 def headline_sentences(summary: Summary) -> list[str]:
     """The fastest method with the same polygons as the core, then the paper's rival and what it does more."""
-    if not summary.headline:
+    headline = summary.experiment.report["summary"].get("headline")
+    if not headline:  # no rival, or an older report
         return []
 
     def name(line: dict[str, Any]) -> str:
-        return f"{summary.titles.get(line['method'], line['method'])} ({line['protocol']})"
+        return label([summary.experiment], Series(line["method"], line["protocol"]))
 
-    core = name(summary.headline["reference"])
+    core = name(headline["reference"])
     said = []
-    for rival in summary.headline["rivals"]:
+    for rival in headline["rivals"]:
         median_ratio = math.inf if rival["median"] is None else rival["median"]
         interval = ""
         if rival["low"] is not None:
@@ -188,8 +167,8 @@ def headline_sentences(summary: Summary) -> list[str]:
         failed = f", of which it failed {rival['failures']}" if rival["failures"] else ""
         same = "the same polygons" if rival["same_polygons"] else "other polygons"
         more = f". {rival['does_more']}" if "does_more" in rival else "."
-        said.append(f"{name(rival)}, {same}: {times(median_ratio)} the time of {core}{interval}, {cases}{failed}{more}")
-    if not any(rival["same_polygons"] for rival in summary.headline["rivals"]):
+        said.append(f"{name(rival)}, {same}: {number(median_ratio)} times the time of {core}{interval}, {cases}{failed}{more}")
+    if not any(rival["same_polygons"] for rival in headline["rivals"]):
         said.insert(0, f"no other method gives the same polygons as {core}.")
     return said
 
@@ -210,7 +189,7 @@ def failure_sentences(summaries: Sequence[Summary]) -> list[tuple[str, str]]:
     for (series, status), entries in found.items():
         failed = sum(one.failures[status] for _, one in entries)
         planned = sum(one.planned for summary in summaries for one in summary.standings if one.series == series)
-        where = sentence_list([f"{summary.title} {one.failures[status]}" for summary, one in entries])
+        where = sentence_list([f"{summary.experiment.title} {one.failures[status]}" for summary, one in entries])
         reasons = sum((one.reasons[status] for _, one in entries), Counter())
         said.append(
             (
@@ -248,10 +227,13 @@ def noise_sentence(experiments: Sequence[Experiment]) -> str:
     return " ".join(f"The times of {sentence_list(titles)} {words}." for titles, words in said)
 
 
-def times(ratio: float) -> str:
-    """13.2 times; three significant digits."""
-    return f"{number(ratio)} times"
+def mixture_sentence(experiments: Sequence[Experiment]) -> str:
+    """Whose times do not belong together, as those of a merged run; empty where all do."""
 
+    def is_mixed(one: Experiment) -> bool:
+        builds = {part["tool"]["binary_sha256"] for part in one.report.get("merged", [one.report])}
+        return len(one.machines()) > 1 or len(builds) > 1
 
-def span(ratio: Ratio) -> str:
-    return f"from {number(ratio.low)} to {number(ratio.high)}"
+    mixed = [one.title for one in experiments if is_mixed(one)]
+    said = "are of several machines or builds of the program: to compare them is to compare these as well"
+    return f"The times of {sentence_list(mixed)} {said}." if mixed else ""

@@ -117,10 +117,9 @@ def _method_pages(run: SiteRun) -> dict[str, str]:
 def _front(run: SiteRun, runs: Sequence[SiteRun], datasets: dict[str, Any]) -> list[Section]:
     front = replace(run.front, pages=_method_pages(run), report=REPORT)
     strip = strip_html(run.experiments, front.ratings[0] if front.ratings else None, run.pictures, REPORT)
-    where = where_html(front) or "<p>There are no ratings.</p>"
     return [
         Section("summary", "Summary", "Summary", front_html(front, strip)),
-        Section("where", "Who is good at what", "Who is good at what", where),
+        Section("where", "Who is good at what", "Who is good at what", where_html(front)),
         Section("here", "What is here", "What is here", _doors(run, datasets)),
         Section("releases", "Runs", "Runs", _releases(runs)),
     ]

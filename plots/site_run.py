@@ -13,7 +13,7 @@ from page import PLOTS
 from pictures import is_kept, kept_pictures
 from ratings import DIVISIONS, Division, Results, divisions, read
 from records import Experiment, Picture, Row, load, member_of
-from report_common import METHOD_LOOKS
+from report_common import method_look
 from report_html import methods_of
 from report_summary import Summary, summarise
 from report_tables import documents
@@ -48,7 +48,7 @@ def zoo_cases() -> dict[str, ZooCase]:
 
 def what_it_is(method: str) -> str:
     """A clause that begins with a capital letter; empty for a method that methods.json does not know."""
-    what = METHOD_LOOKS.get(method, {}).get("what", "")
+    what = method_look(method).get("what", "")
     return what[:1].upper() + what[1:]
 
 
@@ -153,7 +153,7 @@ def load_run(folder: Path) -> SiteRun:
 
 
 def _in_order(methods: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
-    return dict(sorted(methods.items(), key=lambda one: (METHOD_LOOKS.get(one[0], {}).get("order", 1000), one[0])))
+    return dict(sorted(methods.items(), key=lambda one: (method_look(one[0])["order"], one[0])))
 
 
 def with_listing(run: SiteRun, listing: dict[str, Sequence[dict[str, Any]]]) -> SiteRun:

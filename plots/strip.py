@@ -62,12 +62,10 @@ def strip_html(
     chosen = _chosen(shown, every)
     missing = [what for what, one, _ in chosen if one is None]
     cards = "".join(card(k, what, one, said, report) for k, (what, one, said) in enumerate(chosen) if one is not None)
-    note = f" This run has none of these: {sentence_list([one[:1].lower() + one[1:] for one in missing])}." if missing else ""
-    return (
-        f"<div class='strip' id='strip'><h3>{name} in {count_of(len(chosen) - len(missing), 'picture')}</h3>{cards_html(cards)}"
-        + (f"<p class='muted'>{text(note.strip())}</p>" if note else "")
-        + "</div>"
-    )
+    said = f"This run has none of these: {sentence_list([one[:1].lower() + one[1:] for one in missing])}." if missing else ""
+    note = f"<p class='muted'>{said}</p>" if missing else ""
+    title = f"{name} in {count_of(len(chosen) - len(missing), 'picture')}"
+    return f"<div class='strip' id='strip'><h3>{title}</h3>{cards_html(cards)}{note}</div>"
 
 
 def cards_html(cards: str) -> str:

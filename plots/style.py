@@ -22,7 +22,7 @@ from matplotlib.legend import Legend  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 
 from records import Series  # noqa: E402
-from report_common import LOOKS, method_look  # noqa: E402
+from report_common import LOOKS, in_order, method_look  # noqa: E402
 from report_common import short_name as label  # noqa: E402  what figures call a series
 
 MILLIMETRE = 1 / 25.4  # in inches, matplotlib's unit
@@ -114,16 +114,11 @@ def method_style(method: str) -> MethodStyle:
 
 def role_color(role: str) -> str:
     """Of what is no method: ground_truth, points, both, omission, commission, hole, paper_value."""
-    return LOOKS["roles"][role]["light"]
+    return LOOKS["roles"][role]
 
 
 def step_color(step: str) -> str:
-    return LOOKS["steps"].get(step, LOOKS["steps"]["other"])["light"]
-
-
-def in_order(series: Iterable[Series]) -> list[Series]:
-    """Without repetitions: the paper's methods first, then as methods.json says, then by name."""
-    return sorted(set(series), key=lambda one: (method_style(one[0]).order, one[0], one[1] != "paper", one[1]))
+    return LOOKS["steps"].get(step, LOOKS["steps"]["other"])
 
 
 def marker_options(one: Series, scale: float = 1) -> dict[str, object]:
@@ -170,18 +165,12 @@ def curve_options(one: Series, among: Iterable[Series], least: float) -> dict[st
     }
 
 
-def legend_entry(one: Series, among: Iterable[Series], missing: bool = False) -> Line2D:
-    """`missing`: it has nothing in the figure, which the label says."""
-    text = label(one, among) + (" (none)" if missing else "")
-    return Line2D([], [], **{**line_options(one), "label": text})
-
-
 def series_legend(axes: Axes, series: Iterable[Series], missing: Iterable[Series] = (), columns: int = 5) -> None:
     """One legend for a whole figure, in axes of its own; the paper's methods in bold, those without data grey."""
     absent = set(missing)
     every = in_order([*series, *absent])
-    handles = [legend_entry(one, every, one in absent) for one in every]
-    titles = [one.get_label() for one in handles]
+    titles = [label(one, every) + (" (none)" if one in absent else "") for one in every]
+    handles = [Line2D([], [], **{**line_options(one), "label": title}) for one, title in zip(every, titles)]
     legend = legend_below(axes, handles, titles, handlelength=3, ncol=columns, columnspacing=1.4)
     for one, text in zip(every, legend.get_texts()):
         if method_style(one[0]).paper:
@@ -225,9 +214,3 @@ def panel_letter(axes: Axes, letter: str, text: str) -> None:
 def number(value: float, _position: object = None) -> str:
     """A tick's text: 0.5, 20, 1,000,000."""
     return f"{value:,.10g}"
-
-
-def no_frame(axes: Axes) -> None:
-    """For maps: no ticks, no grid, no frame, and the same scale in both directions."""
-    axes.set_aspect("equal")
-    axes.axis("off")

@@ -15,12 +15,12 @@ MOST_LISTED = 2000
 
 
 def where_html(front: Front) -> str:
-    """A heat map for each division, and who beats whom; empty without ratings."""
+    """A heat map for each division, and who beats whom."""
     parts = []
     for k, rating in enumerate(front.ratings):
         shown = _heat_map(rating, front) + _wins(rating)
         parts.append(details(f"Methods that {KNOWS[rating.division.name]}", shown) if k else shown)
-    return "".join(parts)
+    return "".join(parts) or "<p>There are no ratings.</p>"
 
 
 def listed_cases(front: Front) -> dict[str, list[str]]:

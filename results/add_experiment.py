@@ -8,8 +8,6 @@ the finished suite in the folder SUITE, as if that had measured it last.
 Both must be of one build and one machine. Exit codes: 0 added; 2 not added, and nothing was changed: one sentence on
 standard error says why.
 """
-from __future__ import annotations
-
 import json
 import shutil
 import sys

@@ -7,8 +7,6 @@ the code must be the code's.
 
 Exit codes: 0 they may; 2 they may not, or cannot be read: one sentence on standard error says which and what to do.
 """
-from __future__ import annotations
-
 import json
 import subprocess
 import sys
@@ -70,6 +68,6 @@ if __name__ == "__main__":
         sys.exit(2)
     try:
         main(Path(sys.argv[1]), Path(sys.argv[2]) if len(sys.argv) == 3 else PROJECT / "results" / "evaluation")
-    except Refusal as refusal:
+    except (Refusal, OSError) as refusal:
         print(f"error: {refusal}.", file=sys.stderr)
         sys.exit(2)

@@ -8,8 +8,6 @@ its parameters (tune.json has them) and the digits behind the ninth are left out
 
 Exit codes: 0 kept; 2 usage, or RUNS is no finished suite, or KEPT is there already.
 """
-from __future__ import annotations
-
 import json
 import lzma
 import sys
@@ -41,8 +39,8 @@ def kept_description(run: dict[str, Any]) -> dict[str, Any]:
 
 
 def main(runs: Path, kept: Path) -> None:
-    kept.mkdir()
     suite = json.loads((runs / "suite.json").read_text())
+    kept.mkdir()
     (kept / "suite.json").write_text(json.dumps({"plans": suite["plans"]}) + "\n")
     for description in sorted(runs.glob("*/run.json")):
         folder = kept / description.parent.name

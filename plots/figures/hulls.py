@@ -21,22 +21,22 @@ _POINTS = 4000  # as in the paper
 def draw(run: Run) -> Iterator[Drawn]:
     drawn = 0
     for dataset, experiment in growing_shapes(run, 1).items():
-        picture = shape_picture(run, dataset, _POINTS)
+        picture = shape_picture(run, experiment, dataset, _POINTS)
         if picture is None:
             continue
         rows = [row for row in experiment.rows if row.case == picture.name]
         yield Drawn(f"hulls_{dataset}", _figure(picture, rows), _caption(picture, rows))
         drawn += 1
     if not drawn:
-        raise Skipped("the run has no pictures of a shape with holes")
+        raise Skipped("the run has no pictures of a single shape with a truth")
 
 
 def _caption(picture: Picture, rows: list[Row]) -> str:
     total = picture.case["points_total"]
     return (
-        f"Hulls of the same {total:,} points of {rows[0].dataset.upper()} with holes. Grey: right; blue: missing from "
-        "the hull; orange: in the hull but not in the ground truth, whose outline is the thin line. In percent the L² "
-        f"error: the difference's area over that of the ground truth. {failures(rows)}"
+        f"Hulls of the same {total:,} points of {rows[0].dataset.upper()}{' with holes' if rows[0].holes else ''}. Grey: "
+        "right; blue: missing from the hull; orange: in the hull but not in the ground truth, whose outline is the thin "
+        f"line. In percent the L² error: the difference's area over that of the ground truth. {failures(rows)}"
     ).strip()
 
 

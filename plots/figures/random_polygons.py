@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from records import Row
+from records import Row, member_of
 from run import Drawn, Run, Skipped, failures
 from style import FULL_WIDTH, footnote, in_order, label, method_style, new_figure, panel_letter, role_color
 
@@ -40,11 +40,6 @@ def draw(run: Run) -> Iterator[Drawn]:
         f"{failures(rows)}"
     )
     yield Drawn("random_polygons", _figure(chosen, stars, classes, failures(rows)), caption.strip())
-
-
-def kind(row: Row) -> str:
-    """The family of a random polygon: star of star-12."""
-    return row.dataset.rsplit("-", 1)[0]
 
 
 def _values(rows: list[Row]) -> tuple[np.ndarray, np.ndarray]:
@@ -117,9 +112,9 @@ def _classes(axes: Axes, convexity: np.ndarray, classes: list[dict[str, Any]]) -
 
 
 def _kinds_panel(axes: Axes, rows: list[Row]) -> None:
-    kinds = list(dict.fromkeys(kind(row) for row in rows))
+    kinds = list(dict.fromkeys(member_of(row.dataset)[0] for row in rows))
     color = method_style(rows[0].method).color
-    boxes = [_values([row for row in rows if kind(row) == one])[1] for one in kinds]
+    boxes = [_values([row for row in rows if member_of(row.dataset)[0] == one])[1] for one in kinds]
     axes.boxplot(
         boxes,
         vert=False,

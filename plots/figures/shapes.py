@@ -1,4 +1,4 @@
-"""The state shapes with their holes, and points sampled from them (the paper's Figure 8, first column)."""
+"""The state shapes, with their holes if they have some, and points sampled from them (the paper's Figure 8, first column)."""
 
 from collections.abc import Iterator
 
@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 
 from figures.states import growing_shapes
 from maps import area_path, paint, truth_and_points
-from records import Picture
+from records import Experiment, Picture
 from run import Drawn, Run, Skipped
 from style import FULL_WIDTH, new_figure, panel_letter, role_color
 
@@ -14,29 +14,24 @@ _POINTS = 2000  # about as many as can be told apart at this size
 
 
 def draw(run: Run) -> Iterator[Drawn]:
-    pictures = {dataset: picture for dataset in growing_shapes(run, 1) if (picture := shape_picture(run, dataset))}
+    found = {dataset: shape_picture(run, experiment, dataset) for dataset, experiment in growing_shapes(run, 1).items()}
+    pictures = {dataset: picture for dataset, picture in found.items() if picture}
     if not pictures:
-        raise Skipped("the run has no pictures of a shape with holes")
+        raise Skipped("the run has no pictures of a single shape with a truth")
     figure = new_figure(FULL_WIDTH, 82)
     grid = figure.add_gridspec(1, len(pictures), width_ratios=[1 / height_over_width(one) for one in pictures.values()])
     for k, (dataset, picture) in enumerate(pictures.items()):
         axes = figure.add_subplot(grid[0, k])
         _shape(axes, picture)
         axes.set_anchor("N")
-        panel_letter(axes, "abcdef"[k], f"{dataset.upper()}, {picture.case['points_total']:,} points")
-    yield Drawn(
-        "shapes",
-        figure,
-        "The ground truth of the state shapes with holes, the holes in orange, and the points " "that were sampled from it.",
-    )
+        panel_letter(axes, chr(ord("a") + k), f"{dataset.upper()}, {picture.case['points_total']:,} points")
+    caption = "The ground truth of the shapes, holes in orange, and the points that were sampled from it."
+    yield Drawn("shapes", figure, caption)
 
 
-def shape_picture(run: Run, dataset: str, n: int = _POINTS) -> Picture | None:
+def shape_picture(run: Run, experiment: Experiment, dataset: str, n: int = _POINTS) -> Picture | None:
     """The case of the data set, with holes if there is one, whose number of points is nearest to `n`, of those that
     have pictures."""
-    experiment = growing_shapes(run, 1).get(dataset)
-    if experiment is None:
-        return None
     rows = sorted(
         (row for row in experiment.rows if row.dataset == dataset), key=lambda row: (not row.holes, abs(row.n - n), row.n)
     )

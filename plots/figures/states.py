@@ -78,14 +78,14 @@ def _figure(rows: Sequence[Row]) -> Figure:
 
 def _time_panel(axes: Axes, rows: Sequence[Row], letter: str, words: str) -> None:
     times = {one: _curve(rows, one, "time") for one in in_order(row.series for row in rows if row.ok)}
-    _plot(axes, times, bands=True)
+    _plot(axes, times)
     _log_axes(axes, rows)
     panel_letter(axes, letter, f"time, {words}")
     fast = _fast(times)
     if len(fast) > 1:
         _make_room(axes, times)
         inset = axes.inset_axes(_INSET)
-        _plot(inset, {one: [(n / 1000, *values) for n, *values in times[one]] for one in fast}, bands=True)
+        _plot(inset, {one: [(n / 1000, *values) for n, *values in times[one]] for one in fast})
         inset.text(0.04, 0.97, "ms", transform=inset.transAxes, va="top", fontsize=6)
         inset.set_xlim(left=0)
         inset.set_ylim(bottom=0)
@@ -111,7 +111,7 @@ def _make_room(axes: Axes, times: dict[Series, list[Point]]) -> None:
 
 def _error_panel(axes: Axes, rows: Sequence[Row], letter: str, words: str) -> None:
     errors = {one: _curve(rows, one, "l2") for one in in_order(row.series for row in rows if row.ok)}
-    _plot(axes, errors, bands=False)
+    _plot(axes, errors)
     _log_axes(axes, rows)
     axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     axes.set_xlabel("Number of points (thousands)")
@@ -133,13 +133,13 @@ def _curve(rows: Sequence[Row], one: Series, quantity: str) -> list[Point]:
     return points
 
 
-def _plot(axes: Axes, curves: dict[Series, list[Point]], bands: bool) -> None:
+def _plot(axes: Axes, curves: dict[Series, list[Point]]) -> None:
     for one, points in curves.items():
         if not points:
             continue
         axes.plot([p[0] for p in points], [p[1] for p in points], **line_options(one))
         known = [p for p in points if p[2] is not None and p[3] is not None]
-        if bands and len(known) > 1:
+        if len(known) > 1:
             look = method_style(one[0])
             n, _, low, high = zip(*known)
             axes.fill_between(n, low, high, color=look.color, alpha=0.22 if look.paper else 0.12, linewidth=0, zorder=2)

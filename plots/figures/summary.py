@@ -30,7 +30,7 @@ def draw(run: Run) -> Iterator[Drawn]:
     scored = [row for row in rows if row.median_ns and row.metric("l2") is not None]
     if not scored:
         raise Skipped(f"no method has a result for {dataset}")
-    picture = shape_picture(run, dataset, rows[0].n)
+    picture = shape_picture(run, shapes[dataset], dataset, rows[0].n)
     own = _own_result(shapes[dataset].rows, picture)
     title = shapes[dataset].datasets[dataset]["title"]
     holes = " with holes" if rows[0].holes else ""
@@ -73,7 +73,7 @@ def neighbours(rows: Sequence[Row]) -> list[list[Row]]:
 
 
 def _is_near(row: Row, other: Row) -> bool:
-    return all(1 / _NEAR <= one / another <= _NEAR for one, another in zip(_place(row), _place(other)))
+    return all(max(both) <= _NEAR * min(both) for both in zip(_place(row), _place(other)))
 
 
 def _place(row: Row) -> tuple[float, float]:

@@ -95,13 +95,12 @@ function caseAxis(chart, logarithmic, ink, width) {
     };
   }
   const axis = numericAxis(chart.axis, chart.x, logarithmic, ink);
-  const several = { customValues: chart.x };
   return {
     ...axis,
     nameLocation: "middle",
     nameGap: 32,
-    axisTick: { ...axis.axisTick, ...several },
-    axisLabel: { ...axis.axisLabel, ...several, formatter: (value) => formatCount(Math.round(value)) },
+    axisTick: { ...axis.axisTick, customValues: chart.x },
+    axisLabel: { ...axis.axisLabel, customValues: chart.x, formatter: (value) => formatCount(Math.round(value)) },
   };
 }
 

@@ -17,7 +17,6 @@ function startComparison() {
     hooks.charts?.draw();
   };
   const rows = once(async () => new Rows(await unpack(readJson("rows"))));
-  hooks.loadRows = rows;
   hooks.loadTable = once(
     async () => (hooks.table = new PairTable(document.getElementById("table-place"), report, await rows())),
   );

@@ -70,7 +70,7 @@ export class Rows {
 /** The command that measures one run again. */
 export function reproduceCommand(experiment, name) {
   const pattern = `^${name.replace(/[\\^$.*+?()[\]{}|]/g, "\\$&")}$`;
-  return `build/hullbench run ${experiment.name}${experiment.options} --filter '${pattern.replaceAll("'", "'\\''")}'`;
+  return `build/hullbench run ${experiment.name} --seed ${experiment.seed} --filter '${pattern.replaceAll("'", "'\\''")}'`;
 }
 
 /** The values by their key, in the order of the keys' first appearance. */

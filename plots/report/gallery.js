@@ -35,8 +35,7 @@ export function mountGallery(element, page_report, page_pictures) {
   const shown = (series) => entries.filter((entry) => entry.runs.some((run) => run.series === series)).length;
   const keys = report.entrants.map((entrant) => entrant.key);
   const most = keys.reduce((one, other) => (shown(other) > shown(one) ? other : one), keys[0]);
-  const first = shown(report.leader) ? report.leader : most;
-  filters.method = first;
+  filters.method = shown(report.leader) ? report.leader : most;
   element.replaceChildren(
     ...[filter_bar(refresh), failures_button(element, refresh), legend(), count, grid, more, remark()].filter(Boolean),
   );
@@ -236,8 +235,8 @@ function make_card(entry, run) {
 
 /** Paints a card's picture when it comes near the window. */
 function watch_cards() {
-  const watcher = new IntersectionObserver(
-    (seen) => {
+  return new IntersectionObserver(
+    (seen, watcher) => {
       for (const { isIntersecting, target } of seen) {
         if (!isIntersecting) continue;
         watcher.unobserve(target);
@@ -246,7 +245,6 @@ function watch_cards() {
     },
     { rootMargin: "300px" },
   );
-  return watcher;
 }
 
 async function unpack_card(canvas) {
