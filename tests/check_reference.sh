@@ -86,6 +86,8 @@ cat >results/evaluation/runs/states/runs.jsonl <<'ROW'
 {"id": "0", "metrics": {"l2": 0.1234567891234, "perimeter": 3}, "name": "a/b", "parameters": {"b": 1}, "time_ns": [5]}
 ROW
 results/keep_reference.sh run >/dev/null
+refuses "cannot be kept" results/keep_league.py nowhere unkept
+[ ! -e unkept ] || { echo "FAIL: a folder is left of what could not be kept" >&2; exit 1; }
 league=results/reference/league
 [ "$(xzcat $league/states/runs.jsonl.xz)" = \
   '{"metrics":{"l2":0.123456789},"name":"a/b","output_sha256":"","parameters":{},"phases_ns":[],"time_ns":[]}' ] &&

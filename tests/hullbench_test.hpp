@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <map>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,9 +19,8 @@ class HullbenchTest : public ::testing::Test {
  protected:
   fs::path folder() const { return folder_.path(); }
 
-  static std::vector<std::string> command(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), HULLBENCH);
-    return arguments;
+  static std::vector<std::string> command(const std::vector<std::string>& arguments) {
+    return joined({HULLBENCH}, arguments);
   }
 
   /// In the test's folder, unless `options` name another, with manifests of its own.
@@ -46,6 +44,23 @@ class HullbenchTest : public ::testing::Test {
 
   std::vector<json> read_lines(const fs::path& file) const {
     return record::load_json_lines(folder() / file).lines;
+  }
+
+  /// Writes the file anew after `change`.
+  void change_json(const fs::path& file, const std::function<void(json&)>& change) const {
+    json content = read_json(file);
+    change(content);
+    write_text(folder() / file, content.dump());
+  }
+
+  /// Writes the rows of a run anew, each after `change`.
+  void change_rows(const fs::path& run, const std::function<void(json&)>& change) const {
+    std::string text;
+    for (json row : read_lines(run / "runs.jsonl")) {
+      change(row);
+      text += row.dump() + "\n";
+    }
+    write_text(folder() / run / "runs.jsonl", text);
   }
 
   void expect_valid(const std::string& file) const { succeeded(hullbench({"validate", file})); }

@@ -1,7 +1,6 @@
 // A run directory with invented numbers, for tests of what is made from one.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <random>
 #include <string>
@@ -188,6 +189,18 @@ inline Points random_points(std::size_t count, std::uint64_t seed) {
   std::uniform_real_distribution<double> coordinate(-1000, 1000);
   Points points(count);
   for (auto& p : points) p = {coordinate(random), coordinate(random) * 1e-3};
+  return points;
+}
+
+/// Uniform in a square of side 10 with its lower left corner at `corner`, without a disc.
+inline Points square_without_a_disc(std::size_t count, std::uint64_t seed, polylidar::Point corner = {0, 0}) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> coordinate(0, 10);
+  Points points;
+  while (points.size() < count) {
+    const polylidar::Point p = {coordinate(random), coordinate(random)};
+    if (std::hypot(p.x - 5, p.y - 4) > 2) points.push_back({corner.x + p.x, corner.y + p.y});
+  }
   return points;
 }
 

@@ -121,6 +121,11 @@ Outcome Program::wait() {
   return {code, read_text(out_), read_text(err_)};
 }
 
+std::vector<std::string> joined(std::vector<std::string> words, const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
 Outcome run_program(const std::vector<std::string>& command, const ProgramOptions& options) {
   return Program(command, options).wait();
 }
@@ -131,10 +136,7 @@ Outcome succeeded(Outcome outcome) {
 }
 
 std::string missing(const std::vector<std::string>& needs) {
-  std::vector<std::string> command = {NEEDS_SCRIPT};
-  command.insert(command.end(), needs.begin(), needs.end());
-  command.insert(command.end(), {"--", "true"});
-  const Outcome looked = run_program(command);
+  const Outcome looked = run_program(joined(joined({NEEDS_SCRIPT}, needs), {"--", "true"}));
   if (looked.code != 0 && looked.code != 77) throw std::runtime_error(NEEDS_SCRIPT " failed: " + looked.err);
   return looked.out;
 }
@@ -144,7 +146,7 @@ void expect_refusal(const Outcome& outcome, int code, const std::string& words) 
   EXPECT_TRUE(outcome.err.starts_with("hullbench: ") || outcome.err.starts_with("polylidar: "))
       << outcome.err;
   EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
-  EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+  expect_says(outcome.err, words);
   EXPECT_EQ(outcome.out, "");
 }
 

@@ -46,6 +46,9 @@ class Program {
   std::filesystem::path err_;
 };
 
+/// The words of a command, and then more of them.
+std::vector<std::string> joined(std::vector<std::string> words, const std::vector<std::string>& more);
+
 /// Runs a program, which is looked for in PATH, to its end.
 Outcome run_program(const std::vector<std::string>& command, const ProgramOptions& options = {});
 

@@ -1,7 +1,6 @@
 // Plans that take no time, for tests of the whole program.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 

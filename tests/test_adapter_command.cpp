@@ -2,7 +2,6 @@
 // folder of one's own is measured beside the others.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -29,9 +28,7 @@ class AdapterCommandTest : public HullbenchTest {
     write_text(methods() / "sample_worker.py", "import hullbench_worker\n\ndef run(points):\n" + body +
                                                    "\n\nhullbench_worker.serve(version='1', run=run)\n");
     // Debian's Python, which has numpy.
-    json manifest = json::parse(read_text(methods() / "sample.json"));
-    manifest["command"][0] = SYSTEM_PYTHON;
-    write_text(methods() / "sample.json", manifest.dump());
+    change_json(methods() / "sample.json", [](json& manifest) { manifest["command"][0] = SYSTEM_PYTHON; });
   }
 
   Outcome test_sample(const std::string& timeout = "20") const {
@@ -71,11 +68,6 @@ TEST_F(AdapterCommandTest, TheSkeletonsKeepTheContract) {
   }
 }
 
-TEST_F(AdapterCommandTest, TheBuiltInCoreKeepsTheContract) {
-  const Outcome tested = hullbench({"adapter", "test", "polylidar"});
-  EXPECT_EQ(tested.code, 0) << tested.out << tested.err;
-}
-
 TEST_F(AdapterCommandTest, AMethodOfOnesOwnIsMeasuredBesideTheOthers) {
   python_method(
       "    xs, ys = points.T\n    return [[[(xs.min(), ys.min()), (xs.max(), ys.min()), (xs.max(), "
@@ -84,7 +76,7 @@ TEST_F(AdapterCommandTest, AMethodOfOnesOwnIsMeasuredBesideTheOthers) {
       hullbench({"run", "states", "--filter", "^(convex_hull|sample)/ca/n:2000/holes:0", "--repetitions", "2",
                  "--adapters", methods().string(), "--with", "sample", "--out", "run"});
   ASSERT_EQ(run.code, 0) << run.out << run.err;
-  const json report = json::parse(read_text(folder() / "run" / "report.json"));
+  const json report = read_json("run/report.json");
   ASSERT_EQ(report["runs"].size(), 2U);
   const json& row = report["runs"][1];
   EXPECT_EQ(row["name"].get<std::string>(), "sample/ca/n:2000/holes:0/protocol:default");
@@ -94,9 +86,8 @@ TEST_F(AdapterCommandTest, AMethodOfOnesOwnIsMeasuredBesideTheOthers) {
     EXPECT_GT(phases["outside"].get<std::int64_t>(),
               phases["run"].get<std::int64_t>() + phases["extract"].get<std::int64_t>());
   }
-  EXPECT_TRUE(report["manifests"].contains("sample"));
   expect_says(run.out, "| sample");
-  succeeded(hullbench({"validate", "run/report.json"}));
+  expect_valid("run/report.json");
 }
 
 TEST_F(AdapterCommandTest, AnotherProgramIsAnotherRun) {
@@ -162,9 +153,8 @@ TEST_F(AdapterCommandTest, APackageThatNodeLacksIsNamedWithNodeAndTheCommandThat
   ASSERT_EQ(hullbench({"adapter", "new", "lacking", "--lang", "js"}).code, 0);
   const fs::path adapters = folder() / "config" / "hullbench" / "adapters";
   write_text(adapters / "lacking_worker.mjs", "import \"no-such-package\";\n");
-  json manifest = json::parse(read_text(adapters / "lacking.json"));
-  manifest["install"] = "npm install no-such-package";
-  write_text(adapters / "lacking.json", manifest.dump());
+  change_json(adapters / "lacking.json",
+              [](json& manifest) { manifest["install"] = "npm install no-such-package"; });
   const Outcome tested = hullbench({"adapter", "test", "lacking"});
   EXPECT_EQ(tested.code, 4) << tested.out;
   expect_says(tested.out, "no-such-package");
@@ -180,7 +170,9 @@ TEST_F(AdapterCommandTest, AWorkerThatBreaksAtItsStartIsNotMissing) {
 
 TEST_F(AdapterCommandTest, NamesOfModulesAndOfNpmsFilesAreGoodNames) {
   for (const std::string name : {"json", "package_hull"}) {
-    ASSERT_EQ(hullbench({"adapter", "new", name, "--lang", "js"}).code, 0);
+    const Outcome made = succeeded(hullbench({"adapter", "new", name, "--lang", "js"}));
+    const bool has_new_helper = made.out.find("hullbench_worker.mjs") != std::string::npos;
+    EXPECT_EQ(has_new_helper, name == "json") << made.out;
     EXPECT_EQ(hullbench({"adapter", "test", name}).code, 0) << name;
   }
 }

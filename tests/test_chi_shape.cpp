@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -63,8 +62,7 @@ class PlainChiShape {
 
  private:
   double length(const Edge& edge) const {
-    return std::hypot(points_[edge.second].x - points_[edge.first].x,
-                      points_[edge.second].y - points_[edge.first].y);
+    return polylidar::testing::distance(points_[edge.first], points_[edge.second]);
   }
 
   /// Edges of one triangle only, each with that triangle.

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
-#include <filesystem>
-#include <random>
 #include <regex>
 #include <string>
 #include <utility>
@@ -14,6 +12,7 @@
 
 #include "benchmarks/base/names.hpp"
 #include "polylidar/concave_hull.hpp"
+#include "tests/complaint.hpp"
 #include "tests/hullbench_test.hpp"
 #include "tests/point_file_texts.hpp"
 #include "tool/shapes/polygon_writers.hpp"
@@ -27,24 +26,8 @@ const std::vector<std::string> kMethods = {"--only", "polylidar",     "--only", 
                                            "--only", "cgal_delaunay", "--only", "convex_hull"};
 constexpr std::size_t kRows = 6;
 
-/// Uniform in a square with its lower left corner at `corner`, without a disc.
-Points ring(std::size_t count, Point corner = {0, 0}) {
-  Points points;
-  std::mt19937_64 random(5);
-  std::uniform_real_distribution<double> coordinate(0, 10);
-  while (points.size() < count) {
-    const Point p = {coordinate(random), coordinate(random)};
-    if (std::hypot(p.x - 5, p.y - 4) > 2) points.push_back({corner.x + p.x, corner.y + p.y});
-  }
-  return points;
-}
-
 std::string csv(const Points& points, const std::string& header = "x,y\n") {
   return header + rows(points, ",");
-}
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 /// What the first group of `pattern` is, at each place of `text`.
@@ -115,10 +98,8 @@ std::string path_of(const MultiPolygon& shape, const Points& frame) {
 
 class ChooseCommandTest : public HullbenchTest {
  protected:
-  Outcome choose(std::vector<std::string> arguments, const std::vector<std::string>& more = {}) const {
-    arguments.insert(arguments.begin(), "choose");
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return hullbench(arguments);
+  Outcome choose(const std::vector<std::string>& arguments, const std::vector<std::string>& more = {}) const {
+    return hullbench(joined(joined({"choose"}, arguments), more));
   }
   std::string page(const std::string& name = "points.csv.choice.html") const {
     return read_text(folder() / name);
@@ -161,14 +142,14 @@ class ChooseCommandTest : public HullbenchTest {
 };
 
 TEST_F(ChooseCommandTest, ThePageHasACardForEveryMethodSortedByAgreement) {
-  write_points(ring(600));
+  write_points(square_without_a_disc(600, 5));
   const Outcome outcome = succeeded(choose({"points.csv"}, kMethods));
-  EXPECT_TRUE(has(outcome.err, "hullbench: wrote points.csv.choice.html\n")) << outcome.err;
+  expect_says(outcome.err, "hullbench: wrote points.csv.choice.html\n");
   const std::vector<Card> cards = cards_of(page());
   ASSERT_EQ(cards.size(), kRows);
   double last = 100;
   for (const Card& card : cards) {
-    EXPECT_TRUE(has(outcome.out, "| " + card.title)) << card.title;
+    expect_says(outcome.out, "| " + card.title);
     EXPECT_FALSE(card.path.empty()) << card.title;
     for (const char* measure :
          {"Time", "Points", "Parts", "Holes", "Vertices", "Area", "Covered", "Agreement", "Stability"}) {
@@ -189,12 +170,12 @@ TEST_F(ChooseCommandTest, ThePageHasACardForEveryMethodSortedByAgreement) {
   EXPECT_EQ(all_of(page(), "<svg role=\"img\" (viewBox=\"[^\"]*\")").size(), kRows);
   for (const std::string& frame : all_of(page(), R"(<svg role="img" (viewBox="[^"]*"))"))
     EXPECT_EQ(frame, all_of(page(), "<svg role=\"img\" (viewBox=\"[^\"]*\")")[0]);
-  EXPECT_FALSE(has(page(), "<script"));
-  EXPECT_FALSE(has(page(), "://"));
+  EXPECT_FALSE(contains(page(), "<script"));
+  EXPECT_FALSE(contains(page(), "://"));
 }
 
 TEST_F(ChooseCommandTest, TheSamePolygonsCountOnceAndAreSaid) {
-  write_points(ring(600));
+  write_points(square_without_a_disc(600, 5));
   const auto agreement = [&](const std::vector<std::string>& methods, const std::string& title) {
     EXPECT_EQ(choose({"points.csv", "--draws", "0"}, methods).code, 0);
     for (const Card& card : cards_of(page())) {
@@ -205,18 +186,18 @@ TEST_F(ChooseCommandTest, TheSamePolygonsCountOnceAndAreSaid) {
   };
   const std::vector<std::string> two = {"--only", "convex_hull", "--only", "cgal_alpha_shape/auto"};
   const std::string with_one = agreement(two, "Convex hull (default)");
-  EXPECT_FALSE(has(page(), "The same polygons as"));
+  EXPECT_FALSE(contains(page(), "The same polygons as"));
   std::vector<std::string> four = two;
   four.insert(four.end(), {"--only", "polylidar/auto", "--only", "cgal_delaunay"});
   EXPECT_EQ(agreement(four, "Convex hull (default)"), with_one);
   EXPECT_EQ(all_of(page(), "The same polygons as ([0-9] and [0-9])").size(), 3U);
-  EXPECT_TRUE(has(with_one, " %")) << with_one;
+  expect_says(with_one, " %");
   EXPECT_EQ(agreement({"--only", "convex_hull"}, "Convex hull (default)"), "–")
       << "there is nobody to agree with";
 }
 
 TEST_F(ChooseCommandTest, TheCommandOnACardGivesItsPolygons) {
-  const Points points = ring(600);
+  const Points points = square_without_a_disc(600, 5);
   write_points(points, "my 'own' points.csv");
   ASSERT_EQ(choose({"my 'own' points.csv", "--columns", "1,2"}, kMethods).code, 0);
   int by_polylidar = 0;
@@ -230,14 +211,13 @@ TEST_F(ChooseCommandTest, TheCommandOnACardGivesItsPolygons) {
 }
 
 TEST_F(ChooseCommandTest, ASampleIsTheSameAgainAndIsSaid) {
-  const Points points = ring(600);
+  const Points points = square_without_a_disc(600, 5);
   write_points(points);
   const std::vector<std::string> two = {"--only", "polylidar", "--only", "convex_hull", "--draws", "0"};
   const auto paths = [&](const std::string& seed) {
     const Outcome outcome = succeeded(choose({"points.csv", "--n", "300", "--seed", seed}, two));
-    EXPECT_TRUE(has(outcome.err, "points.csv has 600 points; 300 of them, drawn with seed " + seed))
-        << outcome.err;
-    EXPECT_TRUE(has(page(), "300 of them, drawn with seed " + seed));
+    expect_says(outcome.err, "points.csv has 600 points; 300 of them, drawn with seed " + seed);
+    expect_says(page(), "300 of them, drawn with seed " + seed);
     return all_of(page(), "<path [^>]*d=\"([^\"]*)\"");
   };
   const std::vector<std::string> first = paths("3");
@@ -258,16 +238,15 @@ TEST_F(ChooseCommandTest, ASampleIsTheSameAgainAndIsSaid) {
 }
 
 TEST_F(ChooseCommandTest, MethodsThatAreFastEnoughGetAllPoints) {
-  const Points points = ring(30000);
+  const Points points = square_without_a_disc(30000, 5);
   write_points(points);
   // 2 s for the sample, so more than 3 for one and a half times the points.
   add_method("takes_long");
   const Outcome outcome = succeeded(choose({"points.csv", "--draws", "1", "--timeout", "3"},
                                            {"--only", "polylidar/auto", "--only", "takes_long"}));
-  EXPECT_TRUE(has(outcome.err,
-                  "points.csv has 30000 points; 20000 of them, drawn with seed 1, were taken, and all by the "
-                  "methods that are fast enough."))
-      << outcome.err;
+  expect_says(outcome.err,
+              "points.csv has 30000 points; 20000 of them, drawn with seed 1, were taken, and all by the "
+              "methods that are fast enough.");
   const std::vector<Card> cards = cards_of(page());
   ASSERT_EQ(cards.size(), 2U);
   for (const Card& card : cards) {
@@ -285,12 +264,12 @@ TEST_F(ChooseCommandTest, MethodsThatAreFastEnoughGetAllPoints) {
 }
 
 TEST_F(ChooseCommandTest, DegreesAreMetresAndDegreesAgain) {
-  const Points points = ring(600, {8, 47});
+  const Points points = square_without_a_disc(600, 5, {8, 47});
   write_text(folder() / "places.csv", csv(points, "lon,lat\n"));
   ASSERT_EQ(
       choose({"places.csv", "--only", "polylidar/default", "--only", "convex_hull", "--draws", "0"}).code, 0);
   const std::string text = page("places.csv.choice.html");
-  EXPECT_TRUE(has(text, "their longitudes and latitudes were taken as metres"));
+  expect_says(text, "their longitudes and latitudes were taken as metres");
   EXPECT_EQ(all_of(text, "<dt>Area</dt>\\s*<dd>[0-9]+ (m²)</dd>").size(), 2U);
   const MultiPolygon by_polylidar = shape_by("polylidar hull places.csv --out hull.geojson");
   ASSERT_EQ(choose({"places.csv", "--only", "polylidar/default", "--write", "own.geojson"}).code, 0);
@@ -298,12 +277,12 @@ TEST_F(ChooseCommandTest, DegreesAreMetresAndDegreesAgain) {
   const auto area_in = [&](const char* file) { return read_json(file)["properties"]["area"].get<double>(); };
   EXPECT_EQ(area_in("own.geojson"), area_in("hull.geojson")) << "both are areas on the sphere";
   const std::string in_square_metres = std::to_string(std::llround(area_in("hull.geojson"))) + " m²";
-  EXPECT_TRUE(has(text, "<dd>" + in_square_metres + "</dd>")) << in_square_metres;
+  expect_says(text, "<dd>" + in_square_metres + "</dd>");
   EXPECT_EQ(read_json("own.geojson")["properties"]["method"], "polylidar");
 }
 
 TEST_F(ChooseCommandTest, FailuresAreCards) {
-  write_points(ring(100));
+  write_points(square_without_a_disc(100, 5));
   for (const char* mode : {"hang", "crash", "says_error", "invalid_polygon", "garbage_result"})
     add_method(mode);
   add_method("absent", {{"needs", {"/nowhere/library"}}, {"install", "make it"}});
@@ -330,13 +309,13 @@ TEST_F(ChooseCommandTest, FailuresAreCards) {
     const auto card = std::ranges::find_if(
         cards, [&, &mode = mode](const Card& one) { return one.title == mode + " <method> (default)"; });
     ASSERT_NE(card, cards.end()) << mode;
-    EXPECT_TRUE(has(card->text, "<p class=\"bad\">" + words)) << card->text;
-    EXPECT_TRUE(has(card->text, " It got 100 points.</p>")) << card->text;
+    expect_says(card->text, "<p class=\"bad\">" + words);
+    expect_says(card->text, " It got 100 points.</p>");
     EXPECT_TRUE(card->commands.empty()) << mode;
     EXPECT_EQ(card->path.empty(), mode != "invalid_polygon") << mode;
-    EXPECT_TRUE(has(outcome.out, "| " + mode + " <method> (default)")) << outcome.out;
+    expect_says(outcome.out, "| " + mode + " <method> (default)");
   }
-  EXPECT_TRUE(has(page(), "<h2>Not asked</h2>\n<ul>\n<li>absent &lt;method&gt;: ")) << page();
+  expect_says(page(), "<h2>Not asked</h2>\n<ul>\n<li>absent &lt;method&gt;: ");
 
   const Outcome written = choose({"points.csv", "--only", "crash", "--write", "out.geojson"});
   EXPECT_EQ(written.code, 4);
@@ -346,7 +325,7 @@ TEST_F(ChooseCommandTest, FailuresAreCards) {
 }
 
 TEST_F(ChooseCommandTest, BadInputIsOneSentence) {
-  write_points(ring(50));
+  write_points(square_without_a_disc(50, 5));
   expect_refusal(choose({"nowhere.csv"}), 2, "nowhere.csv");
   expect_refusal(choose({"-"}), 2, "standard input cannot be read again");
   write_text(folder() / "header.csv", "x,y\n");
@@ -373,7 +352,7 @@ TEST_F(ChooseCommandTest, BadInputIsOneSentence) {
 }
 
 TEST_F(ChooseCommandTest, AnInterruptionLeavesNothing) {
-  write_points(ring(100));
+  write_points(square_without_a_disc(100, 5));
   add_method("hang");
   fs::create_directory(folder() / "temporary");
   ProgramOptions options = in_folder();
@@ -390,7 +369,7 @@ TEST_F(ChooseCommandTest, AnInterruptionLeavesNothing) {
   EXPECT_EQ(outcome.out, "");
   EXPECT_TRUE(fs::is_empty(folder() / "temporary"));
   for (const auto& entry : fs::directory_iterator(folder()))
-    EXPECT_FALSE(has(entry.path().filename(), "choice")) << entry.path();
+    EXPECT_FALSE(contains(entry.path().filename(), "choice")) << entry.path();
 }
 
 }  // namespace

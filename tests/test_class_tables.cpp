@@ -49,8 +49,8 @@ Row row_of(const table::Table& section, const std::string& group, const std::str
 }
 
 bool has_remark(const table::Table& section, const std::string& part) {
-  return std::ranges::any_of(
-      section.remarks, [&](const std::string& remark) { return remark.find(part) != std::string::npos; });
+  return std::ranges::any_of(section.remarks,
+                             [&](const std::string& remark) { return contains(remark, part); });
 }
 
 bool has_row_of_the_paper(const table::Table& section) {

@@ -32,27 +32,23 @@ const std::vector<std::string> kLetters = {"letter_a", "letter_j", "letter_z"};
 
 TEST(CollectionTables, HaveMeanDeviationAndMaximumOfTheShapes) {
   const std::string text = tables(letters_report(kLetters));
-  EXPECT_TRUE(contains(text, "### 3 shapes, n = 2000")) << text;
-  EXPECT_TRUE(
-      contains(text, "| Polylidar (paper) | 3 | 0 | 20.0 | 10.0 | 30.0 | 2.00 | 1.00 | 3.00 | 3.00 |"))
-      << text;
+  expect_says(text, "### 3 shapes, n = 2000");
+  expect_says(text, "| Polylidar (paper) | 3 | 0 | 20.0 | 10.0 | 30.0 | 2.00 | 1.00 | 3.00 | 3.00 |");
 }
 
 TEST(CollectionTables, HaveThePapersValuesBeneathOurs) {
   const std::string text = tables(letters_report(kLetters));
-  EXPECT_TRUE(
-      contains(text, "| Polylidar, in the paper | 26 | – | 12.8 | 1.8 | 16.8 | 1.2 | 0.3 | 2.4 | – |"))
-      << text;
-  EXPECT_TRUE(contains(text, "\n| letter_a | 10.0 (13.6) | 10.0 | 10.0 (13.4) |")) << text;
+  expect_says(text, "| Polylidar, in the paper | 26 | – | 12.8 | 1.8 | 16.8 | 1.2 | 0.3 | 2.4 | – |");
+  expect_says(text, "\n| letter_a | 10.0 (13.6) | 10.0 | 10.0 (13.4) |");
   EXPECT_TRUE(contains(text, "\n| letter_z | 30.0 | 30.0 | 30.0 |")) << "not published: " << text;
-  EXPECT_TRUE(contains(text, "in brackets the paper's")) << text;
+  expect_says(text, "in brackets the paper's");
 }
 
 TEST(CollectionTables, OfOtherShapesHaveNoPublishedValues) {
   std::vector<std::string> names;
   for (char c = 'a'; c < 'k'; ++c) names.push_back(std::string("shape_") + c);
   const std::string text = tables(letters_report(names));
-  EXPECT_TRUE(contains(text, "### 10 shapes, n = 2000")) << text;
+  expect_says(text, "### 10 shapes, n = 2000");
   EXPECT_FALSE(contains(text, "in the paper |")) << text;
   EXPECT_FALSE(contains(text, "in brackets the paper's")) << text;
 }
@@ -63,14 +59,11 @@ TEST(CollectionTables, MeansAreOfTheCasesThatAllSolvedAndAFailureIsNamed) {
   run["status"] = "timeout";
   run["detail"] = "no answer within 120 s";
   const std::string text = tables(report);
-  EXPECT_TRUE(contains(text, "| SpatiaLite (paper) [1] | 2 | 1 | 20.0 | 14.1 | 30.0 |")) << text;
-  EXPECT_TRUE(contains(text, "| Polylidar (paper) | 2 | 0 | 20.0 | 14.1 | 30.0 | 2.00 | 1.41 | 3.00 |"))
-      << text;
-  EXPECT_TRUE(contains(text, "those that each of them solved")) << text;
-  EXPECT_TRUE(contains(text, "| letter_j | 20.0 (10.0) | 20.0 | timeout |")) << text;
-  EXPECT_TRUE(
-      contains(text, "[1] SpatiaLite (paper) on letter_j, n = 2000: timeout, no answer within 120 s."))
-      << text;
+  expect_says(text, "| SpatiaLite (paper) [1] | 2 | 1 | 20.0 | 14.1 | 30.0 |");
+  expect_says(text, "| Polylidar (paper) | 2 | 0 | 20.0 | 14.1 | 30.0 | 2.00 | 1.41 | 3.00 |");
+  expect_says(text, "those that each of them solved");
+  expect_says(text, "| letter_j | 20.0 (10.0) | 20.0 | timeout |");
+  expect_says(text, "[1] SpatiaLite (paper) on letter_j, n = 2000: timeout, no answer within 120 s.");
 }
 
 TEST(CollectionTables, AMethodThatSolvedLessThanHalfNarrowsNobodysStatistics) {
@@ -81,8 +74,8 @@ TEST(CollectionTables, AMethodThatSolvedLessThanHalfNarrowsNobodysStatistics) {
     run["detail"] = "no answer within 120 s";
   }
   const std::string text = tables(report);
-  EXPECT_TRUE(contains(text, "| SpatiaLite (paper) [1] [2] | 0 | 2 | – | – | – |")) << text;
-  EXPECT_TRUE(contains(text, "| Polylidar (paper) | 3 | 0 | 20.0 | 10.0 | 30.0 |")) << text;
+  expect_says(text, "| SpatiaLite (paper) [1] [2] | 0 | 2 | – | – | – |");
+  expect_says(text, "| Polylidar (paper) | 3 | 0 | 20.0 | 10.0 | 30.0 |");
 }
 
 TEST(CollectionTables, MarkAnErrorAboveThatOfTheConvexHull) {
@@ -93,15 +86,14 @@ TEST(CollectionTables, MarkAnErrorAboveThatOfTheConvexHull) {
     run["metrics"]["l2_convex_hull"] = run["method"] == "cgal_alpha_shape" ? 0.4999999 : 0.5;
   }
   const std::string text = tables(report);
-  EXPECT_TRUE(contains(text, "\n| letter_a | 10.0 (13.6) | 10.0 † | 10.0 (13.4) |")) << text;
-  EXPECT_TRUE(contains(text, "- †: the error is above that of the points' convex hull.")) << text;
-  EXPECT_TRUE(contains(text, "above that of the points' convex hull: CGAL alpha shape (paper) 3 of 3."))
-      << text;
+  expect_says(text, "\n| letter_a | 10.0 (13.6) | 10.0 † | 10.0 (13.4) |");
+  expect_says(text, "- †: the error is above that of the points' convex hull.");
+  expect_says(text, "above that of the points' convex hull: CGAL alpha shape (paper) 3 of 3.");
 }
 
 TEST(CollectionTables, AMethodThatIsNotInstalledHasNoValues) {
   const std::string text = tables(letters_report(kLetters));
-  EXPECT_TRUE(contains(text, "| 0 | 0 | – | – | – | – | – | – | – |")) << text;
+  expect_says(text, "| 0 | 0 | – | – | – | – | – | – | – |");
 }
 
 TEST(CollectionTables, AreNotForAFewShapesThatThePaperHasNoTableOf) {

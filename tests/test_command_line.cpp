@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <filesystem>
 #include <map>
 #include <random>
 #include <regex>
@@ -489,14 +488,10 @@ TEST_F(CommandLineTest, WhatWasNotInstalledIsMeasuredWhenItIsThere) {
   const ProgramOptions missing = {
       {}, {{"HULLBENCH_POSTGRES_BIN", (folder() / "no-programs").string()}}, false};
   const auto run = [&](const std::vector<std::string>& plans, const ProgramOptions& options) {
-    std::vector<std::string> words = {"run"};
-    words.insert(words.end(), plans.begin(), plans.end());
-    for (const char* word :
-         {"--filter", "^(convex_hull|postgis)/(hi|letter_a)/n:2000/holes:0", "--repetitions", "1", "--out"}) {
-      words.emplace_back(word);
-    }
-    words.emplace_back(plans.size() == 1 ? "run" : "suite");
-    return hullbench(words, options);
+    const std::string filter = "^(convex_hull|postgis)/(hi|letter_a)/n:2000/holes:0";
+    const std::string out = plans.size() == 1 ? "run" : "suite";
+    const std::vector<std::string> words = joined({"run"}, plans);
+    return hullbench(joined(words, {"--filter", filter, "--repetitions", "1", "--out", out}), options);
   };
   const auto statuses = [&](const fs::path& rows) {
     std::map<std::string, int> counts;
@@ -510,7 +505,7 @@ TEST_F(CommandLineTest, WhatWasNotInstalledIsMeasuredWhenItIsThere) {
   const Outcome second = run({"states"}, {});
   expect_says(second.err,
               "1 of 2 runs are finished and not measured again (--force starts anew); tried again "
-              "because the method was not installed: 1\n");
+              "because a package was missing: 1\n");
   EXPECT_EQ(statuses("run/runs.jsonl"), both);
   expect_says(run({"states"}, {}).err,
               "2 of 2 runs are finished and not measured again (--force starts anew)\n");

@@ -169,6 +169,13 @@ class Comparisons(WithFolder):
         self.assertEqual([chart["x"][point["x"]] for point in chart["a"][key]], [2000, 4000])
         self.assertEqual([chart["x"][point["x"]] for point in chart["b"][key]], [1000, 4000])
 
+    def test_classes_of_convexity_that_only_one_side_has_are_in_their_place(self) -> None:
+        chart = {"id": "chart-0", "experiment": 0, "title": "Star", "kind": "convexity", "axis": "", "series": {}}
+        b, a = ([{**chart, "x": x}] for x in (["0.5–0.6", "0.8–0.9"], ["0.8–0.9"]))
+        with mock.patch("comparison_data.charts", side_effect=[b, a]):
+            (both,) = both_charts(self.compared())
+        self.assertEqual(both["x"], ["0.5–0.6", "0.8–0.9"])
+
     # The verdict.
 
     def test_methods_are_judged_by_whether_the_interval_leaves_out_1(self) -> None:

@@ -54,39 +54,34 @@ std::vector<Point> without(std::vector<Point> points, const std::vector<Point>& 
   return points;
 }
 
+void expect_the_shape_of_its_triangles(const std::vector<Point>& points) {
+  const Triangulation triangulation = delaunay(points);
+  for (const Options& options : testing::clear_options(points, triangulation)) {
+    SCOPED_TRACE(testing::describe(options));
+    const MultiPolygon shape = hull(points, options);
+    const testing::ExpectedShape expected = testing::expected_shape(points, triangulation, options);
+    EXPECT_EQ(shape.size(), expected.polygons);
+    EXPECT_EQ(hole_count(shape), expected.holes);
+    if (has_representable_area(points)) {
+      EXPECT_NEAR(area(shape), expected.area, area_tolerance(points));
+    }
+  }
+}
+
 // any input
 
 TEST(ConcaveHull, IsTheShapeOfItsTriangles) {
   for (const PointSet& set : testing::nasty_point_sets()) {
     SCOPED_TRACE(set.name);
-    const Triangulation triangulation = delaunay(set.points);
-    for (const Options& options : testing::clear_options(set.points, triangulation)) {
-      SCOPED_TRACE(testing::describe(options));
-      const MultiPolygon shape = hull(set.points, options);
-      const testing::ExpectedShape expected = testing::expected_shape(set.points, triangulation, options);
-      EXPECT_EQ(shape.size(), expected.polygons);
-      EXPECT_EQ(hole_count(shape), expected.holes);
-      if (has_representable_area(set.points)) {
-        EXPECT_NEAR(area(shape), expected.area, area_tolerance(set.points));
-      }
-    }
+    expect_the_shape_of_its_triangles(set.points);
   }
 }
 
 TEST(ConcaveHull, IsTheShapeOfItsTrianglesOnRandomPoints) {
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    const std::vector<Point> points = seed % 2 == 0 ? testing::uniform_points(20 + 2 * seed, seed)
-                                                    : testing::integer_points(20 + 2 * seed, seed, 24);
-    const Triangulation triangulation = delaunay(points);
-    for (const Options& options : testing::clear_options(points, triangulation)) {
-      SCOPED_TRACE(testing::describe(options));
-      const MultiPolygon shape = hull(points, options);
-      const testing::ExpectedShape expected = testing::expected_shape(points, triangulation, options);
-      EXPECT_EQ(shape.size(), expected.polygons);
-      EXPECT_EQ(hole_count(shape), expected.holes);
-      EXPECT_NEAR(area(shape), expected.area, area_tolerance(points));
-    }
+    expect_the_shape_of_its_triangles(seed % 2 == 0 ? testing::uniform_points(20 + 2 * seed, seed)
+                                                    : testing::integer_points(20 + 2 * seed, seed, 24));
   }
 }
 

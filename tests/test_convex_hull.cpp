@@ -1,7 +1,6 @@
 // The convex hull by Boost.Geometry, against the core without a limit.
 #include <gtest/gtest.h>
 
-#include <memory>
 #include <string>
 #include <vector>
 

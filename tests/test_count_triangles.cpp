@@ -55,10 +55,8 @@ TEST(CountTriangles, AgreesWithASlowCountOfTheRegions) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const Points points = testing::uniform_points(400, 100 + seed);
     for (const double max_edge : {0.04, 0.06, 0.07, 0.08, 0.1, 10.0}) {
-      Options options;
-      options.max_edge_length = max_edge;
       Extractor extractor;
-      const std::size_t polygons = extractor.extract(points, options).polygon_count();
+      const std::size_t polygons = extractor.extract(points, {.max_edge_length = max_edge}).polygon_count();
       std::vector<std::size_t> counts = extractor.count_triangles();
       EXPECT_EQ(counts.size(), polygons);
       std::sort(counts.begin(), counts.end());
@@ -69,17 +67,12 @@ TEST(CountTriangles, AgreesWithASlowCountOfTheRegions) {
 
 TEST(CountTriangles, GoesByThePolygonsOrder) {
   Points points;
-  const auto add_grid = [&](double x, int side) {
-    for (int i = 0; i < side * side; ++i) {
-      const int row = i / side;
-      points.push_back({x + i % side, static_cast<double>(row)});
-    }
-  };
-  for (int side = 2; side < 9; ++side) add_grid(100.0 * side, side);
-  Options options;
-  options.alpha = 1;
+  for (std::size_t side = 2; side < 9; ++side) {
+    const Points grid = testing::lattice(side, side, 1, {100 * static_cast<double>(side), 0});
+    points.insert(points.end(), grid.begin(), grid.end());
+  }
   Extractor extractor;
-  const MultiPolygon shape = to_coordinates(extractor.extract(points, options), points);
+  const MultiPolygon shape = to_coordinates(extractor.extract(points, {.alpha = 1}), points);
   const std::vector<std::size_t> counts = extractor.count_triangles();
   ASSERT_EQ(shape.size(), 7U);
   ASSERT_EQ(counts.size(), 7U);

@@ -263,6 +263,9 @@ class Data(WithSuite):
         shown = texts(figure)
         for words in ("Polylidar", "GEOS (auto)", "GEOS (paper)", "somebodys_hull", "not installed", "4,000"):
             self.assertIn(words, shown + self.draw(hulls)["hulls_ca"].caption)
+        picture = self.run_.experiment("states").picture("ca/n:8000/holes:1")
+        for holes, words in ((False, "of CA. Grey"), (True, "of CA with holes. Grey")):
+            self.assertIn(words, hulls._caption(picture, [Row(plot_samples.run("polylidar", "paper", "ca", 8000, holes), {})]))
         for module, names in ((shapes, ["shapes"]), (rgbd, ["rgbd"]), (examples, ["convex_and_concave", "convexity"])):
             self.assertEqual(list(self.draw(module)), names)
 

@@ -1,7 +1,6 @@
 // The real bench_gate with probes that are scripts: they say whatever times the test wants.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -50,10 +49,7 @@ outline=$((($(wc -l <"$0.runs") - 1) % 4 < 2 ? 1000 : 1200))
 
 Outcome run_gate(const fs::path& base, const fs::path& head, const fs::path& out,
                  const std::vector<std::string>& options = {"--blocks", "12"}) {
-  std::vector<std::string> command = {BENCH_GATE,    "--base-probe", base.string(), "--head-probe",
-                                      head.string(), "--out",        out.string()};
-  command.insert(command.end(), options.begin(), options.end());
-  return run_program(command);
+  return run_program(joined({BENCH_GATE, "--base-probe", base, "--head-probe", head, "--out", out}, options));
 }
 
 json report_of(const fs::path& out) {

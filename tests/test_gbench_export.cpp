@@ -1,7 +1,6 @@
 // Google Benchmark's JSON: its content, and that Google Benchmark's own tool reads it.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <set>
 #include <string>
 

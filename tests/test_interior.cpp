@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
-#include <iostream>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -136,11 +136,14 @@ Points sample(const Sampler& sampler, std::size_t n, Random& random) {
   return testing::shuffled(points, random.below(1U << 30U));
 }
 
+double spacing_in_box(const Points& points) {
+  const Box box = bounding_box(points);
+  return std::sqrt((box.max.x - box.min.x) * (box.max.y - box.min.y) / static_cast<double>(points.size()));
+}
+
 // Limits of all kinds, singly and together, most of them where some triangles are dropped and most are not.
 Options random_options(const Points& points, Random& random) {
-  const Box box = bounding_box(points);
-  const double spacing =
-      std::sqrt((box.max.x - box.min.x) * (box.max.y - box.min.y) / static_cast<double>(points.size()));
+  const double spacing = spacing_in_box(points);
   const auto radius = [&] {
     const double r = spacing * random.between(0.8, 5);
     // A round number of spacings hits the triangles of lattices exactly.
@@ -199,9 +202,7 @@ void compare(BothWays& ways, const Points& points, const Options& options, WayCo
 
 // A limit as the default chooses it, most often one where holes come and go.
 detail::SizeField random_field(const Points& points, Random& random) {
-  const Box box = bounding_box(points);
-  const double spacing =
-      std::sqrt((box.max.x - box.min.x) * (box.max.y - box.min.y) / static_cast<double>(points.size()));
+  const double spacing = spacing_in_box(points);
   const double limit = spacing * random.between(1.2, 4.5);
   return {.limit4 = {std::pow(limit, 4)},
           .spike_share = random.below(4) == 0 ? 1 : random.between(0.1, 1),
@@ -264,15 +265,7 @@ void compare_random_inputs(std::size_t cases, std::size_t least, std::size_t mos
     compare(ways, points, options, counts);
     compare_sizes(ways, points, options.threads, random, counts_of_sizes);
   }
-  for (const auto& [way, count] : counts_of_sizes) {
-    std::cout << "way of sizes " << static_cast<int>(way) << ": " << count << '\n';
-  }
   EXPECT_GT(counts_of_sizes[Way::kInteriorLeftOut], cases / 3);
-  std::string report;
-  for (const auto& [way, count] : counts) {
-    report += " " + std::to_string(static_cast<int>(way)) + ":" + std::to_string(count);
-  }
-  std::cout << "ways" << report << '\n';
   EXPECT_GT(counts[Way::kInteriorLeftOut], cases / 2);
 }
 
@@ -320,10 +313,6 @@ TEST(InteriorLeftOut, GivesTheShapesOfTheDefault) {
     EXPECT_EQ(extractor.count_triangles(), steps.count_triangles());
     EXPECT_LT(extractor.statistics().triangulated_points, points.size() / 2);
   }
-  for (const auto& [way, count] : counts) {
-    std::cout << "way of the default " << static_cast<int>(way) << ": " << count << ", of few points "
-              << counts_of_few[way] << '\n';
-  }
   EXPECT_GT(counts_of_few[Way::kInteriorLeftOut], 4U);
   EXPECT_GT(counts[Way::kInteriorLeftOut], 8U);
   EXPECT_GT(counts[Way::kWhole], 3U);
@@ -336,7 +325,7 @@ TEST(InteriorLeftOut, GivesTheShapesOfTheDefaultByPlaces) {
   Extractor steps;
   detail::AutomaticLimit limit;
   detail::ThreadPool pool;
-  std::map<std::string, std::size_t> inputs;
+  std::set<std::string> samplers_of_inputs;
   WayCounts counts;
   const std::size_t cases = std::max(2 * samplers().size(), case_count(0) / 500);
   for (std::uint64_t seed = 0; seed < cases; ++seed) {
@@ -348,7 +337,7 @@ TEST(InteriorLeftOut, GivesTheShapesOfTheDefaultByPlaces) {
     move(points, random);
     const auto by = limit.look(detail::passes_over(points, pool), bounding_box(points), pool);
     if (by != detail::SizesBy::kPlaces) continue;
-    ++inputs[sampler.name];
+    samplers_of_inputs.insert(sampler.name);
     Options options{.detail = std::array{0.7, 1.0, 1.5}[random.below(3)]};
     if (random.below(3) == 0) options.fill_single_triangles = false;
     SCOPED_TRACE(::testing::Message() << sampler.name << ", seed " << seed << ", detail " << options.detail);
@@ -362,11 +351,7 @@ TEST(InteriorLeftOut, GivesTheShapesOfTheDefaultByPlaces) {
       ++counts[extractor.statistics().way];
     }
   }
-  for (const auto& [name, count] : inputs) std::cout << "by places: " << name << ": " << count << '\n';
-  for (const auto& [way, count] : counts) {
-    std::cout << "way by places " << static_cast<int>(way) << ": " << count << '\n';
-  }
-  EXPECT_GT(inputs.size(), 5U);
+  EXPECT_GT(samplers_of_inputs.size(), 5U);
   EXPECT_GT(counts[Way::kInteriorLeftOut], 20U);
 }
 
@@ -428,8 +413,7 @@ TEST(InteriorLeftOut, FindsAHoleWhoseRadiusIsTheLimit) {
 
 double circumradius(const Point& a, const Point& b, const Point& c) {
   const double cross = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-  return std::hypot(a.x - b.x, a.y - b.y) * std::hypot(b.x - c.x, b.y - c.y) *
-         std::hypot(c.x - a.x, c.y - a.y) / (2 * cross);
+  return testing::distance(a, b) * testing::distance(b, c) * testing::distance(c, a) / (2 * cross);
 }
 
 // A limit that is some triangle's own size up to rounding: the answer depends on the corner where the
@@ -567,8 +551,6 @@ TEST(InteriorLeftOut, AlsoOfCoordinatesWithFewDecimals) {
   }
 }
 
-// What the proof needs of the part: it has every uncertain point's neighbours in the triangulation of all
-// points.
 TEST(InteriorLeftOut, AlsoOfPointsThatComeRowByRow) {
   // Looked at from row to row, their first column alone says nothing of the others.
   for (const std::size_t columns : {100U, 160U, 424U}) {
@@ -581,6 +563,8 @@ TEST(InteriorLeftOut, AlsoOfPointsThatComeRowByRow) {
   }
 }
 
+// What the proof needs of the part: it has every uncertain point's neighbours in the triangulation of all
+// points.
 TEST(InteriorPart, HasAllNeighboursOfUncertainPoints) {
   detail::InteriorPart part;
   detail::ThreadPool pool;
@@ -646,13 +630,8 @@ TEST(InteriorLeftOut, CanBeAskedAbout) {
     return copies;
   };
   EXPECT_EQ(way(four_times(testing::uniform_points(2000, 1)), {.alpha = 0.0224}), Way::kMuchOutline);
-  Points lattice;
-  for (int row = 0; row < 50; ++row) {
-    for (int column = 0; column < 50; ++column) lattice.push_back({column * 0.1, row * 0.1});
-  }
-  EXPECT_EQ(way(four_times(lattice), {.alpha = 0.1}), Way::kInteriorLeftOut);
-  Points other = points;
-  for (Point& p : other) p = {std::ldexp(p.x, 600), std::ldexp(p.y, 600)};
+  EXPECT_EQ(way(four_times(testing::lattice(50, 50, 0.1)), {.alpha = 0.1}), Way::kInteriorLeftOut);
+  Points other = testing::scaled(points, 600, 600);
   EXPECT_EQ(way(other, {.alpha = std::ldexp(0.02, 600)}), Way::kExtremeCoordinates);
   other = points;
   other.push_back({other[10'000].x, std::nextafter(other[10'000].y, 2)});

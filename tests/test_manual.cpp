@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "packaging/manual/manual.hpp"
+#include "tests/complaint.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -15,7 +16,10 @@ namespace packaging {
 namespace {
 
 namespace fs = std::filesystem;
+using hullbench::testing::contains;
 using hullbench::testing::expect_refusal;
+using hullbench::testing::expect_says;
+using hullbench::testing::joined;
 using hullbench::testing::read_text;
 using hullbench::testing::run_program;
 using hullbench::testing::succeeded;
@@ -54,57 +58,50 @@ class ManualTest : public ::testing::Test {
   bool crust_ = false;
 };
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 TEST_F(ManualTest, HasAPageForEveryCommandThatIsNotHidden) {
   const auto pages = man_pages(app_, "cut 1.2");
   ASSERT_EQ(pages.size(), 3u);
   for (const std::string name : {"cut.1", "cut-bread.1", "cut-bread-toast.1"}) {
     ASSERT_TRUE(pages.contains(name)) << name;
-    EXPECT_FALSE(has(pages.at(name), "Nobody")) << pages.at(name);
-    EXPECT_TRUE(has(pages.at(name), "\"cut 1.2\"")) << pages.at(name);
+    EXPECT_FALSE(contains(pages.at(name), "Nobody")) << pages.at(name);
+    expect_says(pages.at(name), "\"cut 1.2\"");
   }
-  EXPECT_TRUE(has(pages.at("cut-bread-toast.1"), "cut\\-bread\\-toast \\- Toast it\n"));
-  EXPECT_TRUE(has(pages.at("cut-bread-toast.1"), ".SH SEE ALSO\n\\fBcut\\-bread\\fR(1)\n"));
+  expect_says(pages.at("cut-bread-toast.1"), "cut\\-bread\\-toast \\- Toast it\n");
+  expect_says(pages.at("cut-bread-toast.1"), ".SH SEE ALSO\n\\fBcut\\-bread\\fR(1)\n");
 }
 
 TEST_F(ManualTest, SaysWhatTheHelpSaysInWords) {
   const std::string page = man_pages(app_, "cut 1.2").at("cut-bread.1");
-  EXPECT_TRUE(has(page,
-                  ".SH SYNOPSIS\n\\fBcut bread\\fR [\\fIOPTIONS\\fR] \\fIFILE\\fR [\\fIMORE\\fR...] "
-                  "\\fISUBCOMMAND\\fR\n"))
-      << page;
-  EXPECT_TRUE(has(page, ".TP\n\\fIFILE\\fR\nWhat to cut\n.TP\n\\fIMORE\\fR...\nWhat else to cut\n")) << page;
-  EXPECT_TRUE(has(page,
-                  ".TP\n\\fB\\-w\\fR, \\fB\\-\\-width\\fR \\fITEXT\\fR\n"
-                  "Width in mm. Values: thin, thick. Default: thin.\n"))
-      << page;
-  EXPECT_TRUE(has(page, "\nIts form. Values: round, raw or art:STYLE.\n")) << page;
-  EXPECT_TRUE(has(page, "\nHow many. Values: 1 to 8.")) << page;
-  EXPECT_TRUE(has(page, ".TP\n\\fB\\-\\-crust\\fR\nLeave the crust. Not with \\-\\-count.\n")) << page;
-  EXPECT_FALSE(has(page, "REQUIRED")) << page;
+  expect_says(page,
+              ".SH SYNOPSIS\n\\fBcut bread\\fR [\\fIOPTIONS\\fR] \\fIFILE\\fR [\\fIMORE\\fR...] "
+              "\\fISUBCOMMAND\\fR\n");
+  expect_says(page, ".TP\n\\fIFILE\\fR\nWhat to cut\n.TP\n\\fIMORE\\fR...\nWhat else to cut\n");
+  expect_says(page,
+              ".TP\n\\fB\\-w\\fR, \\fB\\-\\-width\\fR \\fITEXT\\fR\n"
+              "Width in mm. Values: thin, thick. Default: thin.\n");
+  expect_says(page, "\nIts form. Values: round, raw or art:STYLE.\n");
+  expect_says(page, "\nHow many. Values: 1 to 8.");
+  expect_says(page, ".TP\n\\fB\\-\\-crust\\fR\nLeave the crust. Not with \\-\\-count.\n");
+  EXPECT_FALSE(contains(page, "REQUIRED")) << page;
 }
 
 TEST_F(ManualTest, GivesEachPartOfTheFooterItsSection) {
   const std::string page = man_pages(app_, "cut 1.2").at("cut.1");
-  EXPECT_TRUE(has(page, ".SH NAME\ncut \\- Cuts things\n")) << page;
-  EXPECT_TRUE(has(page,
-                  ".SH EXIT STATUS\n.TP\n\\fB0\\fR\nit is cut\n.TP\n\\fB130\\fR\nit is\n"
-                  ".SH NOTES\n"))
-      << page;
-  EXPECT_TRUE(has(page, "\nForks are not.\n.PP\nEnd.\n.SH EXAMPLES\n")) << "lines are filled anew: " << page;
-  EXPECT_FALSE(has(page, ".nf")) << page;
-  EXPECT_TRUE(has(page, "\\fBcut bread \\(aqa loaf\\(aq\\fR\n")) << page;
+  expect_says(page, ".SH NAME\ncut \\- Cuts things\n");
+  expect_says(page,
+              ".SH EXIT STATUS\n.TP\n\\fB0\\fR\nit is cut\n.TP\n\\fB130\\fR\nit is\n"
+              ".SH NOTES\n");
+  expect_says(page, "\nForks are not.\n.PP\nEnd.\n.SH EXAMPLES\n");  // lines are filled anew
+  EXPECT_FALSE(contains(page, ".nf")) << page;
+  expect_says(page, "\\fBcut bread \\(aqa loaf\\(aq\\fR\n");
 }
 
 TEST_F(ManualTest, EscapesWhatTroffWouldObey) {
   const auto pages = man_pages(app_, "cut 1.2");
-  EXPECT_TRUE(has(pages.at("cut-bread.1"), "never C:\\ebread\n"));
-  EXPECT_TRUE(has(pages.at("cut.1"), ".SH NOTES\nKnives are sharp, and \\(aqthis\\(aq .5 mm wide\\(ti.\n"));
+  expect_says(pages.at("cut-bread.1"), "never C:\\ebread\n");
+  expect_says(pages.at("cut.1"), ".SH NOTES\nKnives are sharp, and \\(aqthis\\(aq .5 mm wide\\(ti.\n");
   app_.footer(".5 slices");
-  EXPECT_TRUE(has(man_pages(app_, "").at("cut.1"), "\n\\&.5 slices\n"));
+  expect_says(man_pages(app_, "").at("cut.1"), "\n\\&.5 slices\n");
 }
 
 /// What a shell offers for the last of the words.
@@ -130,12 +127,10 @@ class CompletionTest : public ManualTest {
   const MoreWords kMore_ = {{"art:STYLE", {"art:new", "art:nice"}}};
 
  private:
-  Words completed(Words command, const std::string& script, const Words& words) {
+  Words completed(const Words& command, const std::string& script, const Words& words) {
     const fs::path file = folder_.path() / "script";
     write_text(file, script);
-    command.push_back(file);
-    command.insert(command.end(), words.begin(), words.end());
-    std::istringstream lines(succeeded(run_program(command)).out);
+    std::istringstream lines(succeeded(run_program(joined(joined(command, {file}), words))).out);
     Words found;
     for (std::string line; std::getline(lines, line);) {
       if (!line.empty()) found.push_back(line);
@@ -180,16 +175,16 @@ TEST_F(CompletionTest, OfZshOffersTheSame) {
 }
 
 TEST_F(CompletionTest, LeavesOutWhatTheProgramDoesNotHave) {
-  EXPECT_FALSE(has(bash_completion(app_), "art:"));
+  EXPECT_FALSE(contains(bash_completion(app_), "art:"));
   for (const std::string& script : {bash_completion(app_, kMore_), zsh_completion(app_, kMore_)}) {
-    EXPECT_FALSE(has(script, "hidden")) << script;
-    EXPECT_FALSE(has(script, "secret")) << script;
+    EXPECT_FALSE(contains(script, "hidden")) << script;
+    EXPECT_FALSE(contains(script, "secret")) << script;
   }
 }
 
 TEST_F(ManualTest, IsWrittenByAnOptionThatNoHelpShows) {
   add_manual(app_, "cut 1.2");
-  EXPECT_FALSE(has(app_.help(), "write-manual"));
+  EXPECT_FALSE(contains(app_.help(), "write-manual"));
   const TemporaryFolder folder;
   const fs::path made = folder.path() / "not" / "yet";
   EXPECT_THROW(app_.parse("--write-manual " + made.string()), CLI::Success);
@@ -198,7 +193,6 @@ TEST_F(ManualTest, IsWrittenByAnOptionThatNoHelpShows) {
   EXPECT_EQ(read_text(made / "cut-bread.1"), man_pages(app_, "cut 1.2").at("cut-bread.1"));
 }
 
-/// What polylidar says of a manual that it cannot write.
 TEST(PolylidarManualTest, SaysWhyItCannotBeWritten) {
   expect_refusal(run_program({POLYLIDAR, "--write-manual"}), 2, "--write-manual needs the name of a folder");
   const TemporaryFolder folder;
@@ -216,10 +210,10 @@ TEST(PolylidarManualTest, CompletesDriversOfGdalWhereThereIsGdal) {
     succeeded(run_program({program, "--write-manual", folder.path()}));
     return read_text(folder.path() / "polylidar");
   };
-  EXPECT_EQ(has(completion_of(POLYLIDAR), "gdal:GPKG"), HAS_GDAL);
+  EXPECT_EQ(contains(completion_of(POLYLIDAR), "gdal:GPKG"), HAS_GDAL);
 #ifdef POLYLIDAR_WITH_GDAL
-  EXPECT_TRUE(has(completion_of(POLYLIDAR_WITH_GDAL),
-                  "\"polylidar hull --format\") choices=\"auto geojson wkt wkb svg gdal:GPKG "));
+  expect_says(completion_of(POLYLIDAR_WITH_GDAL),
+              "\"polylidar hull --format\") choices=\"auto geojson wkt wkb svg gdal:GPKG ");
 #endif
 }
 

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
@@ -46,37 +45,19 @@ class MergeTest : public HullbenchTest {
     return write(plan);
   }
 
-  void run(const std::string& out, std::vector<std::string> words) const {
-    words.insert(words.begin(), "run");
-    words.insert(words.end(), {"--out", out});
-    succeeded(hullbench(words));
+  void run(const std::string& out, const std::vector<std::string>& words) const {
+    succeeded(hullbench(joined(joined({"run"}, words), {"--out", out})));
   }
 
   void run_shards(int count, const std::vector<std::string>& plans) const {
     for (int number = 1; number <= count; ++number) {
-      std::vector<std::string> words = plans;
-      words.insert(words.end(), {"--shard", std::to_string(number) + "/" + std::to_string(count)});
-      run("shard" + std::to_string(number), words);
+      run("shard" + std::to_string(number),
+          joined(plans, {"--shard", std::to_string(number) + "/" + std::to_string(count)}));
     }
   }
 
-  /// Changes run.json of the run in `name`.
-  template <typename Change>
-  void change_header(const std::string& name, const Change& change) const {
-    json header = read_json(name + "/run.json");
-    change(header);
-    write_text(folder() / name / "run.json", header.dump());
-  }
-
-  /// Changes every row of the run in `name`.
-  template <typename Change>
-  void change_rows(const std::string& name, const Change& change) const {
-    std::string text;
-    for (json line : read_lines(name + "/runs.jsonl")) {
-      change(line);
-      text += line.dump() + "\n";
-    }
-    write_text(folder() / name / "runs.jsonl", text);
+  void change_header(const std::string& name, const std::function<void(json&)>& change) const {
+    change_json(name + "/run.json", change);
   }
 
   /// Makes the run in `name` say that it is of another machine.
@@ -475,9 +456,7 @@ TEST_F(ShardTest, IsGoneOnWithAsItselfOnly) {
   EXPECT_EQ(read_text(folder() / "shard" / "runs.jsonl"), rows);
   for (const std::vector<std::string>& other :
        {std::vector<std::string>{"--shard", "2/2"}, {"--shard", "1/3"}, {}}) {
-    std::vector<std::string> words = {"run", plan(), "--out", "shard"};
-    words.insert(words.end(), other.begin(), other.end());
-    expect_refusal(hullbench(words), 2, "holds another run");
+    expect_refusal(hullbench(joined({"run", plan(), "--out", "shard"}, other)), 2, "holds another run");
   }
 }
 

@@ -160,17 +160,14 @@ TEST(PolylidarSteps, GiveTheCoresPolygonsAsOneCallDoes) {
         ->make();
   };
   const std::vector<Point> points = square_points(40000, 8, true);
-  const auto core_hull = [&](const polylidar::Options& options) {
-    return polylidar::to_coordinates(polylidar::concave_hull(points, options), points);
-  };
-  EXPECT_NE(core_hull({.detail = 2}), core_hull({}));
+  EXPECT_NE(core_hull(points, {.detail = 2}), core_hull(points, {}));
   for (const auto& [parameters, options] :
        {std::pair{Parameters{}, polylidar::Options{}},
         {Parameters{{"detail", 2}}, polylidar::Options{.detail = 2}},
         {Parameters{{"alpha", 0.02}}, polylidar::Options{.alpha = 0.02}},
         {Parameters{{"max_perimeter", 0.1}}, polylidar::Options{.max_perimeter = 0.1}}}) {
     for (const char* name : {"polylidar", "polylidar_steps"})
-      EXPECT_EQ(hull_of(*make(name), points, parameters), core_hull(options)) << name;
+      EXPECT_EQ(hull_of(*make(name), points, parameters), core_hull(points, options)) << name;
   }
 }
 

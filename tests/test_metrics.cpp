@@ -21,11 +21,14 @@
 #include "polylidar/concave_hull.hpp"
 #include "tests/boost_checks.hpp"
 #include "tests/boxes.hpp"
+#include "tests/hull_oracle.hpp"
 #include "tests/point_sets.hpp"
 
 namespace hullbench::testing {
 namespace {
 
+using polylidar::testing::core_hull;
+using polylidar::testing::kConvexHull;
 using polylidar::testing::Random;
 
 const MultiPolygon kSquare = {{box(0, 0, 10, 10), {}}};
@@ -36,10 +39,8 @@ const MultiPolygon kBowTie = {{{{0, 0}, {2, 2}, {2, 0}, {0, 2}}, {}}};
 std::vector<Point> cell_centres(std::size_t count = 100) {
   std::vector<Point> points;
   for (std::size_t i = 0; i < count; ++i) {
-    {
-      const std::size_t row = i / 10;
-      points.push_back({0.5 + static_cast<double>(i % 10), 0.5 + static_cast<double>(row)});
-    }
+    const std::size_t row = i / 10;
+    points.push_back({0.5 + static_cast<double>(i % 10), 0.5 + static_cast<double>(row)});
   }
   return points;
 }
@@ -240,8 +241,7 @@ TEST(ContractScores, TextOf15DigitsLosesNoPointAndTextOf14Does) {
     points.reserve(100);
     for (int i = 0; i < 100; ++i)
       points.push_back({centre.x + scale * random.between(-1, 1), centre.y + scale * random.between(-1, 1)});
-    const MultiPolygon hull =
-        polylidar::to_coordinates(polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit}), points);
+    const MultiPolygon hull = core_hull(points, kConvexHull);
     const auto covered_by_text_of = [&](int digits) {
       MultiPolygon text = hull;
       for (Point& vertex : text.at(0).shell) {
@@ -360,8 +360,7 @@ TEST(Agreement, WithoutATruthOfAConvexHullAllPointsAreCovered) {
     points.reserve(200);
     for (int i = 0; i < 200; ++i)
       points.push_back({centre.x + scale * random.between(0, 1), centre.y + scale * random.between(0, 1)});
-    const MultiPolygon hull =
-        polylidar::to_coordinates(polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit}), points);
+    const MultiPolygon hull = core_hull(points, kConvexHull);
     const metrics::Metrics metrics = metrics::describe(points, hull, hull, {});
     EXPECT_EQ(metrics.contract.points_covered, 1) << seed;
     EXPECT_DOUBLE_EQ(metrics.convex_hull_share.value(), 1) << seed;
@@ -514,8 +513,7 @@ struct SampleCase {
 SampleCase star_case(std::size_t number) {
   const PointSet set = make_point_set("star-" + std::to_string(number), true, 1500, 1);
   const double alpha = 2 * std::sqrt(set.ground_truth_area / 1500);
-  return {set.points, set.ground_truth,
-          polylidar::to_coordinates(polylidar::concave_hull(set.points, {.alpha = alpha}), set.points)};
+  return {set.points, set.ground_truth, core_hull(set.points, {.alpha = alpha})};
 }
 
 TEST(SegmentTree, AgreesWithBoost) {
@@ -660,8 +658,7 @@ TEST(Metrics, DoNotDependOnOriginUnitOrQuarterTurns) {
 
 TEST(Metrics, AResultIsScoredWhereTheBufferOfItIsInvalid) {
   const PointSet set = make_point_set("country-2~lattice:0", false, 2000, 1258990650);
-  const MultiPolygon result = polylidar::to_coordinates(
-      polylidar::concave_hull(set.points, {.alpha = 1.1550034993241562}), set.points);
+  const MultiPolygon result = core_hull(set.points, {.alpha = 1.1550034993241562});
   const metrics::Metrics metrics = metrics::CaseScorer(set.points, set.ground_truth).score(result);
   EXPECT_TRUE(metrics.area.valid);
   ASSERT_TRUE(metrics.boundary_iou);

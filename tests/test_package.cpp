@@ -37,9 +37,7 @@ const std::set<std::string> kToolFiles = {"bin/polylidar",
 class PackageTest : public ::testing::Test {
  protected:
   void install(const std::vector<std::string>& options) {
-    std::vector<std::string> command = {CMAKE_PROGRAM, "--install", BUILD_FOLDER, "--prefix", prefix()};
-    command.insert(command.end(), options.begin(), options.end());
-    succeed(command);
+    succeed(joined({CMAKE_PROGRAM, "--install", BUILD_FOLDER, "--prefix", prefix()}, options));
   }
 
   /// The core's package, moved after it was installed.
@@ -71,9 +69,7 @@ class PackageTest : public ::testing::Test {
   }
 
   std::string pkg_config(const std::vector<std::string>& options) const {
-    std::vector<std::string> command = {PKG_CONFIG_PROGRAM, "polylidar"};
-    command.insert(command.end(), options.begin(), options.end());
-    return succeed(command, pkg_config_path());
+    return succeed(joined({PKG_CONFIG_PROGRAM, "polylidar"}, options), pkg_config_path());
   }
 
   /// "lib", or what the system has in its stead.

@@ -40,7 +40,7 @@ class Paper(unittest.TestCase):
         told = make_paper.document(self.experiments, self.folder, [one], [table(2)], {"alphabet": "no letters"})
         report = self.experiments[0].report
         for words in (
-            r"Time of 50\% of \textless{}all\textgreater{} steps $\tau$".replace(r"50\%", r"50 \%"),
+            r"Time of 50 \% of \textless{}all\textgreater{} steps $\tau$",
             rf"{len(self.experiments[0].rows)} runs of {report['repetitions']} repetitions",
             make_paper.escaped(report["environment"]["cpu"]["model"]),
             "Intervals are of 95",

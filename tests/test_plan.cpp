@@ -26,10 +26,13 @@
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
 #include "tests/complaint.hpp"
+#include "tests/point_sets.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace hullbench::testing {
 namespace {
+
+using polylidar::testing::lattice;
 
 const std::vector<std::string> kMethods = {"polylidar", "spatialite"};
 
@@ -450,6 +453,12 @@ TEST(PlanSchema, SaysOfEveryFieldWhatItIsWithExamplesThatAreValid) {
   }
 }
 
+TEST(JsonSchemaTest, TakesIntegersOf64Bits) {
+  const JsonSchema seeds(json::parse(R"({"type": "array", "items": {"type": "integer", "minimum": 0}})"));
+  EXPECT_TRUE(seeds.faults(json::array({0U, 18446744073709551615U})).empty());
+  EXPECT_FALSE(seeds.faults(json::array({-1})).empty());
+}
+
 TEST(PlanSchema, ItsExampleIsAPlan) {
   const json schema = plan_schema();
   ASSERT_FALSE(schema.at("examples").empty());
@@ -803,14 +812,6 @@ TEST(Plan, AlphabetIsThePapersExperiment) {
               1e-4);  // the manifest's convexity has 4 decimals
 }
 
-std::vector<Point> unit_grid(int side) {
-  std::vector<Point> points;
-  for (int x = 0; x < side; ++x) {
-    for (int y = 0; y < side; ++y) points.push_back({static_cast<double>(x), static_cast<double>(y)});
-  }
-  return points;
-}
-
 // Two unit squares, one of them with a hole of a quarter's area, at the ends of a hull of 3 x 1.
 const MultiPolygon kTwoSquares = {
     {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}},
@@ -829,7 +830,7 @@ TEST(ParameterRule, ByName) {
 }
 
 TEST(ParameterRule, RulesThatDoNotReadTheGroundTruthDoNotReadIt) {
-  const auto points = unit_grid(5);
+  const auto points = lattice(5, 5);
   for (const std::string& name : plan::rule_names()) {
     const plan::ParameterRule& rule = *plan::find_rule(name);
     if (rule.reads_ground_truth) continue;
@@ -838,14 +839,14 @@ TEST(ParameterRule, RulesThatDoNotReadTheGroundTruthDoNotReadIt) {
 }
 
 TEST(ParameterRule, PaperAlpha) {
-  const auto points = unit_grid(10);
+  const auto points = lattice(10, 10);
   EXPECT_DOUBLE_EQ(plan::paper_alpha({points, 400.0, false}), 4.0);
   EXPECT_DOUBLE_EQ(plan::paper_alpha_squared({points, 400.0, false}), 16.0);
   EXPECT_EQ(plan::paper_alpha({{}, 400.0, false}), 0.0);
 }
 
 TEST(ParameterRule, PaperEdgeLength) {
-  const auto points = unit_grid(10);
+  const auto points = lattice(10, 10);
   EXPECT_DOUBLE_EQ(plan::paper_edge_length({points, 400.0, false}), 8.0);
 }
 

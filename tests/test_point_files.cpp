@@ -38,8 +38,8 @@ class PointFilesTest : public ::testing::Test {
   /// What the refusal says; a failure of the test when there is none.
   std::string refusal(const std::string& name, const std::string& text,
                       const PointFileOptions& options = {}) const {
-    std::string said = hullbench::testing::complaint_of<PointFileError>([&] { read(name, text, options); });
-    EXPECT_NE(said, hullbench::testing::kNoComplaint) << name << " was read\n" << text.substr(0, 200);
+    std::string said = complaint_of<PointFileError>([&] { read(name, text, options); });
+    EXPECT_NE(said, kNoComplaint) << name << " was read\n" << text.substr(0, 200);
     return said;
   }
 
@@ -148,11 +148,11 @@ TEST_F(PointFilesTest, TheSystemBesideHasTheNameOfTheFile) {
 TEST_F(PointFilesTest, ThePartsOfAFileHaveItsPoints) {
   Points points;
   for (int i = 0; i < 100'000; ++i) points.push_back({0.5 * i, 0.25 * (i % 1000)});
-  hullbench::testing::LasFile las;
+  LasFile las;
   for (int i = 0; i < 100'000; ++i) las.points.push_back({.x = i, .y = i % 1000, .withheld = i % 7 == 0});
-  const std::vector<std::string> paths = {
-      file("a.npy", npy_of<double>(points, "<f8")), file("b.npy", npy_of<float>(points, "<f4")),
-      file("c.f64", hullbench::testing::raw_of(points)), file("d.las", las.text())};
+  const std::vector<std::string> paths = {file("a.npy", npy_of<double>(points, "<f8")),
+                                          file("b.npy", npy_of<float>(points, "<f4")),
+                                          file("c.f64", raw_of(points)), file("d.las", las.text())};
   for (const std::string& path : paths) {
     for (const bool has_window : {false, true}) {
       PointFileOptions options;
@@ -176,9 +176,9 @@ TEST_F(PointFilesTest, ThePartsOfAFileHaveItsPoints) {
   PointFileOptions second;
   second.take_points = [](std::span<const Point>) {};
   second.part = {1, 2};
-  const std::string said = hullbench::testing::complaint_of<PointFileError>(
-      [&] { read_point_file(file("e.npy", npy_of<double>(points, "<f8")), second); });
-  expect_says(said, "point 70001 has a coordinate that is not finite");
+  const std::string bad = file("e.npy", npy_of<double>(points, "<f8"));
+  expect_complaint<PointFileError>([&] { read_point_file(bad, second); },
+                                   "point 70001 has a coordinate that is not finite");
   for (const auto& [name, text] : std::vector<std::pair<const char*, std::string>>{
            {"a.csv", "1,2\n"}, {"fortran.npy", npy_of<double>({{1, 2}}, "<f8", true)}}) {
     EXPECT_FALSE(is_read_in_parts(file(name, text), {})) << name;
@@ -221,8 +221,7 @@ TEST_F(PointFilesTest, GeoJsonIsGroupedByAProperty) {
           {R"({"type":"Feature","properties":{"b":1,"a":2},"geometry":{"type":"Point","coordinates":[1,2]}})",
            "--by 'kind' names no property of its features; they have 'a', 'b'"},
           {geojson_multipoint({{1, 2}}), "they have none"}}) {
-    const std::string said = refusal("a.geojson", document, {.by = "kind"});
-    expect_says(said, words);
+    expect_says(refusal("a.geojson", document, {.by = "kind"}), words);
   }
   expect_says(refusal("a.wkt", "POINT (1 2)", {.by = "kind"}), "--by is for columns of text");
 }
@@ -286,8 +285,7 @@ TEST_F(PointFilesTest, FaultsInTheChoiceOfColumns) {
            {"1,3", ", line 2: there is no column 3"}}) {
     PointFileOptions options;
     options.columns = columns;
-    const std::string said = refusal("a.csv", "a,b\n1,2\n", options);
-    expect_says(said, words);
+    expect_says(refusal("a.csv", "a,b\n1,2\n", options), words);
     expect_says(refusal("a.wkt", "POINT (1 2)", options), "--columns is for");
   }
 }
@@ -413,8 +411,7 @@ TEST_F(PointFilesTest, FaultsInBinaryFiles) {
 
 TEST_F(PointFilesTest, NoFileAndAFolder) {
   EXPECT_THROW(read_points("/nowhere/points.csv"), PointFileError);
-  hullbench::testing::expect_complaint<PointFileError>([] { read_points(::testing::TempDir()); },
-                                                       "it is a folder");
+  expect_complaint<PointFileError>([] { read_points(::testing::TempDir()); }, "it is a folder");
 }
 
 TEST_F(PointFilesTest, ProgressTellsBytesAndCanEndTheReading) {

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -25,9 +24,8 @@ constexpr const char* kDataset = "ca~gradient:16~outliers:5~noise:0.5";
 
 class PointsCommandTest : public ::testing::Test {
  protected:
-  static Outcome points(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {HULLBENCH, "points"});
-    return run_program(arguments);
+  static Outcome points(const std::vector<std::string>& arguments) {
+    return run_program(joined({HULLBENCH, "points"}, arguments));
   }
   /// The same through the shell, after `before`.
   static Outcome in_shell(const std::string& before, const std::string& arguments) {
@@ -127,9 +125,9 @@ TEST_F(PointsCommandTest, LasHoldsThemUpToItsScale) {
 }
 
 TEST_F(PointsCommandTest, HolesSeedAndOwnPoints) {
-  const Outcome holed = succeeded(points({"ca", "--n", "300", "--holes", "--out", path("holed.npy")}));
+  succeeded(points({"ca", "--n", "300", "--holes", "--out", path("holed.npy")}));
   EXPECT_EQ(polylidar::tool::read_points(path("holed.npy")), make_point_set("ca", true, 300, 1).points);
-  const Outcome floor = succeeded(points({"floor-2", "--seed", "5", "--out", path("floor.npy")}));
+  succeeded(points({"floor-2", "--seed", "5", "--out", path("floor.npy")}));
   EXPECT_EQ(polylidar::tool::read_points(path("floor.npy")), make_point_set("floor-2", false, 0, 5).points);
 }
 

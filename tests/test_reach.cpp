@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "core/src/reach.hpp"
 #include "tests/point_sets.hpp"

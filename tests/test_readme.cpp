@@ -1,7 +1,6 @@
 // The results in the README: where they are put, and the check that they are those of a run.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <string>
 
 #include "benchmarks/base/names.hpp"

@@ -8,7 +8,6 @@
 #include "benchmarks/base/names.hpp"
 #include "benchmarks/report/tables.hpp"
 #include "benchmarks/table/writers.hpp"
-#include "invented_run.hpp"
 #include "invented_shapes.hpp"
 #include "tests/complaint.hpp"
 

@@ -2,8 +2,6 @@
 // paper.
 #include <gtest/gtest.h>
 
-#include <cstdint>
-#include <filesystem>
 #include <map>
 #include <set>
 #include <string>

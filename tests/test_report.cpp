@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -292,9 +291,7 @@ TEST(Claims, OfAMethodWithoutAnyResultAreNotMeasured) {
 }
 
 TEST(Claims, AtASizeThatWasNotMeasured) {
-  const TemporaryFolder folder;
-  write_invented_run(folder.path(), {2000});
-  const json claim = find_by(report::make_report(folder.path())["summary"]["claims"], "id", "total_cgal");
+  const json claim = find_by(invented_report({2000})["summary"]["claims"], "id", "total_cgal");
   EXPECT_TRUE(claim["verdict"].is_null());
   expect_says(claim["detail"].get<std::string>(), "n = 64000");
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 #include <set>
@@ -126,11 +125,8 @@ TEST(FloorScenes, HaveThePapersNumberOfPoints) {
   std::size_t sum = 0;
   for (std::size_t index = 0; index < kFloorScenes; ++index) {
     const FloorScene scene = simulate_floor(index, kSeed);
-    const double share = inside_share(scene);
-    std::printf("scene %2zu: %zu points, %.2f %% of them in the ground truth of %.4f m^2\n", index,
-                scene.points.size(), 100 * share, polylidar::area(scene.ground_truth));
     // Noise moves points along their rays, over the border by a centimetre or two.
-    EXPECT_GT(share, 0.97) << index;
+    EXPECT_GT(inside_share(scene), 0.97) << index;
     sum += scene.points.size();
   }
   // 83,184 in the paper.
@@ -229,8 +225,6 @@ TEST_P(LowFloorOf, PointsLieOnTheFloorButForTheLensAndTheNoise) {
         distance * distance * SensorNoise().subpixel_error / (simulated_camera().fx * kStereoBaseline);
     far += boost_distance(point, scene.ground_truth) > 0.015 * distance + 5 * deviation ? 1U : 0U;
   }
-  std::printf("scene %zu: %zu points, %.2f %% of them in the ground truth of %.4f m^2\n", GetParam(),
-              scene.points.size(), 100 * inside_share(scene), polylidar::area(scene.ground_truth));
   EXPECT_GT(inside_share(scene), 0.9);
   EXPECT_LE(far, scene.points.size() / 1000);
 }
@@ -257,8 +251,6 @@ TEST(LowFloors, DifferFromTheOthersAsTheyAreSaidTo) {
     }
     const auto [least, most] = std::ranges::minmax_element(cells);
     most_density = std::max(most_density, *most / *least);
-    std::printf("scene %zu: rows up to %.2f, density %.1f, disparity %.3f\n", index, most_across,
-                most_density, most_rows);
   }
   EXPECT_NEAR(most_across, 5.6, 0.05);
   EXPECT_NEAR(most_density, 200, 2);
@@ -311,7 +303,6 @@ TEST(SensorNoise, GrowsWithTheSquareOfTheDistance) {
   EXPECT_NEAR(near.subpixel, expected, 0.03 * expected);
   EXPECT_NEAR(far.subpixel, expected, 0.03 * expected);
   EXPECT_GT(far.metres, 1.8 * near.metres);
-  std::printf("deviation of depth: %.1f mm near, %.1f mm far\n", 1000 * near.metres, 1000 * far.metres);
 }
 
 TEST(SensorNoise, DepthTakesTheValuesOfDisparitySteps) {
@@ -355,8 +346,6 @@ TEST(SensorNoise, PixelsDropOutAtEdgesOnly) {
     ++edges;
     if (half.counts[i] == 0) ++dropped;
   }
-  std::printf("%.0f of %zu pixels are at edges, %.0f of them dropped out\n", edges, all.counts.size(),
-              dropped);
   EXPECT_GT(edges, 500);
   // Four standard deviations of a fair coin.
   EXPECT_NEAR(dropped / edges, 0.5, 2 / std::sqrt(edges));

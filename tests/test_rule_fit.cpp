@@ -157,12 +157,7 @@ TEST(RuleFit, TheConstantsInTheCodeAreAboutTheBestOfASmallFit) {
 MultiPolygon hull_of(const std::string& method, const std::vector<Point>& points,
                      const Parameters& parameters) {
   for (const AdapterEntry& entry : adapter_registry()) {
-    if (entry.name != method) continue;
-    const auto adapter = entry.make();
-    NoSteps steps;
-    adapter->load(points);
-    adapter->run(parameters, steps);
-    return adapter->extract(steps);
+    if (entry.name == method) return testing::hull_of(*entry.make(), points, parameters);
   }
   ADD_FAILURE() << "there is no method " << method;
   return {};

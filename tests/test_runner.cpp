@@ -413,14 +413,6 @@ TEST_F(RunnerTest, AnUntimedRunChecksEvenASingleRepetition) {
   }
 }
 
-TEST_F(RunnerTest, AHangIsATimeoutAndNotTriedAgain) {
-  plan::Plan plan = plan_of({"hang", "good"});
-  plan.timeout_s = 0.5;
-  measure(plan);
-  EXPECT_EQ(to_string(rows().at("hang").status), "timeout");
-  EXPECT_EQ(to_string(rows().at("good").status), "ok");
-}
-
 TEST_F(RunnerTest, AnInvalidPolygonIsTimedAndScoredAsInvalid) {
   measure(plan_of({"invalid_polygon"}));
   const record::RunRecord row = rows().at("invalid_polygon");

@@ -5,7 +5,6 @@
 #include <fstream>
 #include <iterator>
 #include <string>
-#include <vector>
 
 #include "tests/complaint.hpp"
 #include "tests/point_file_texts.hpp"

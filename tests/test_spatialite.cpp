@@ -1,13 +1,12 @@
 // The SpatiaLite adapter on the real library.
 #include <gtest/gtest.h>
 
-#include <limits>
-#include <memory>
 #include <vector>
 
 #include "adapters/adapter.hpp"
 #include "tests/complaint.hpp"
 #include "tests/hull_input.hpp"
+#include "tests/infinity.hpp"
 
 namespace hullbench::testing {
 namespace {
@@ -45,9 +44,8 @@ TEST(Spatialite, SaysWhenNoTriangleIsKept) {
 
 TEST(Spatialite, KeepsEveryTriangleWithoutALimit) {
   const auto adapter = make_spatialite();
-  const double infinity = std::numeric_limits<double>::infinity();
   const std::vector<Point> corners = {{0, 0}, {4, 0}, {4, 3}, {0, 3}, {1, 1}};
-  EXPECT_DOUBLE_EQ(polylidar::area(hull_of(*adapter, corners, {{"c", infinity}})), 12);
+  EXPECT_DOUBLE_EQ(polylidar::area(hull_of(*adapter, corners, {{"c", kInfinity}})), 12);
 }
 
 }  // namespace

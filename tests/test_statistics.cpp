@@ -86,11 +86,11 @@ TEST(Statistics, OneOutlierMovesTheMeanOnly) {
   const Times values = {10, 11, 12, 13, 1000000};
   EXPECT_EQ(statistics::median(values), 12);
   EXPECT_EQ(statistics::median_absolute_deviation(values), 1);  // deviations 2 1 0 1 999988
-  EXPECT_EQ(statistics::mean(values), 200009.2);
+  EXPECT_EQ(statistics::describe(values).mean, 200009.2);
 }
 
 TEST(Statistics, QuantilesInterpolateBetweenOrderStatistics) {
-  const Times values = {40, 10, 30, 20};
+  const std::vector<double> values = {40, 10, 30, 20};
   EXPECT_EQ(statistics::quantile(values, 0), 10);
   EXPECT_EQ(statistics::quantile(values, 1), 40);
   EXPECT_EQ(statistics::quantile(values, 0.5), 25);
@@ -99,7 +99,7 @@ TEST(Statistics, QuantilesInterpolateBetweenOrderStatistics) {
 }
 
 TEST(Statistics, QuantileOutsideZeroToOneIsRefused) {
-  const Times values = {1, 2};
+  const std::vector<double> values = {1, 2};
   EXPECT_THROW(statistics::quantile(values, -0.1), std::invalid_argument);
   EXPECT_THROW(statistics::quantile(values, 1.1), std::invalid_argument);
   EXPECT_THROW(statistics::quantile(values, std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
@@ -107,7 +107,7 @@ TEST(Statistics, QuantileOutsideZeroToOneIsRefused) {
 
 TEST(Statistics, StandardDeviationDividesByOneLess) {
   // Mean 5, squares of the deviations 9 1 1 1 0 0 4 16, sum 32.
-  const Times values = {2, 4, 4, 4, 5, 5, 7, 9};
+  const std::vector<double> values = {2, 4, 4, 4, 5, 5, 7, 9};
   ASSERT_TRUE(statistics::standard_deviation(values).has_value());
   EXPECT_DOUBLE_EQ(*statistics::standard_deviation(values), std::sqrt(32.0 / 7.0));
 }
@@ -143,17 +143,18 @@ TEST(Statistics, DescribeHasAllOfThem) {
 TEST(Statistics, LargeTimesKeepEveryNanosecond) {
   const std::int64_t day = 86'400'000'000'000;
   EXPECT_EQ(statistics::median(Times{day, day + 1, day + 2}), static_cast<double>(day + 1));
-  EXPECT_EQ(*statistics::standard_deviation(Times{day, day + 2}), std::sqrt(2.0));
+  EXPECT_EQ(*statistics::describe(Times{day, day + 2}).standard_deviation, std::sqrt(2.0));
 }
 
 TEST(Statistics, NothingHasNoStatistic) {
-  const Times none;
-  EXPECT_THROW(statistics::median(none), std::invalid_argument);
+  const Times no_times;
+  EXPECT_THROW(statistics::median(no_times), std::invalid_argument);
+  EXPECT_THROW(statistics::median_absolute_deviation(no_times), std::invalid_argument);
+  EXPECT_THROW(statistics::describe(no_times), std::invalid_argument);
+  const std::vector<double> none;
   EXPECT_THROW(statistics::quantile(none, 0.5), std::invalid_argument);
-  EXPECT_THROW(statistics::median_absolute_deviation(none), std::invalid_argument);
   EXPECT_THROW(statistics::mean(none), std::invalid_argument);
   EXPECT_THROW(statistics::standard_deviation(none), std::invalid_argument);
-  EXPECT_THROW(statistics::describe(none), std::invalid_argument);
 }
 
 TEST(Holm, ByHand) {

@@ -21,6 +21,10 @@ namespace {
 
 using Points = std::vector<Point>;
 
+constexpr const char* kOtherPoints = "the source has other points than when it was read before";
+constexpr const char* kTooSmall =
+    "the limit is too small for the distances between the points: give a larger one, or more memory";
+
 // Points in memory, in blocks of one size; what it gives in the second pass may be other points.
 class MemorySource {
  public:
@@ -83,12 +87,7 @@ std::vector<StreamShard> parts(const Points& points, Options options, std::uint3
 }
 
 std::string complaint(std::span<const StreamShard> shards) {
-  try {
-    concave_hull_of_shards(shards);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return hullbench::testing::complaint_of<std::invalid_argument>([&] { concave_hull_of_shards(shards); });
 }
 
 /// A square lattice with holes: four points on a circle everywhere, which the limits can tell apart.
@@ -236,8 +235,7 @@ TEST(Stream, SaysWhatIsWrongOfSourcesAtTheSameTime) {
     if (progress.pass != 3 || std::exchange(pass, progress.pass) == 3) return;
     points[199'999].x = 2;
   };
-  EXPECT_EQ(complaint_of({.progress = change, .reads_at_once = true}),
-            "the source has other points than when it was read before");
+  EXPECT_EQ(complaint_of({.progress = change, .reads_at_once = true}), kOtherPoints);
 }
 
 // Points near the outline are kept when uncertain ones are looked for, as long as there is room for them.
@@ -270,8 +268,7 @@ TEST(Stream, ReadsThePointsOnceLessWhereThereIsMemory) {
     moved.front() = {2, 2};
     MemorySource source(points);
     source.change(pass, moved);
-    EXPECT_EQ(complaint(source, {.alpha = 0.008}),
-              "the source has other points than when it was read before");
+    EXPECT_EQ(complaint(source, {.alpha = 0.008}), kOtherPoints);
   }
 }
 
@@ -339,8 +336,7 @@ TEST(Stream, ReadsThePointsOnceLessWhereItKnowsWhatToExpect) {
       MemorySource changes(points);
       changes.change(pass, shorter);
       if (pass == 3 && options.alpha) continue;  // there is none
-      EXPECT_EQ(complaint(changes, options, {.expected = right}),
-                "the source has other points than when it was read before");
+      EXPECT_EQ(complaint(changes, options, {.expected = right}), kOtherPoints);
     }
   }
   MemorySource source(points);
@@ -521,8 +517,7 @@ TEST(StreamShards, NeedLessMemoryThanOneRun) {
   const Options options{.alpha = 0.003};
   const StreamOptions little{.most_map_bytes = 120'000};
   MemorySource source(points);
-  EXPECT_EQ(complaint(source, options, little),
-            "the limit is too small for the distances between the points: give a larger one, or more memory");
+  EXPECT_EQ(complaint(source, options, little), kTooSmall);
   expect_same(concave_hull_of_shards(parts(points, options, 8, little)), MemorySource(points).hull(options));
 }
 
@@ -530,7 +525,7 @@ TEST(StreamShards, SayWhyTheyDoNotFitTogether) {
   const Points points = testing::uniform_points(70'000, 25);
   const Options options{.max_perimeter = 0.1};
   const std::vector<StreamShard> right = parts(points, options, 3);
-  EXPECT_EQ(complaint(right), "");
+  EXPECT_EQ(complaint(right), hullbench::testing::kNoComplaint);
   EXPECT_EQ(complaint(std::span<const StreamShard>()), "there is no shard");
   EXPECT_EQ(complaint(std::span(right).first(2)), "shard 1 of 3 is missing");
   EXPECT_EQ(complaint(std::span(right).last(2)), "shard 3 of 3 is missing");
@@ -603,10 +598,8 @@ TEST(Stream, KeepsToTheMemoryThatItMayUse) {
   const IndexedMultiPolygon shape = concave_hull(points, options);
   MemorySource source(points);
   EXPECT_EQ(source.hull(options, {.most_map_bytes = 8000}).polygons, to_coordinates(shape, points));
-  EXPECT_EQ(complaint(source, options, {.most_map_bytes = 1000}),
-            "the limit is too small for the distances between the points: give a larger one, or more memory");
-  EXPECT_EQ(complaint(source, {.alpha = 1e-9}),
-            "the limit is too small for the distances between the points: give a larger one, or more memory");
+  EXPECT_EQ(complaint(source, options, {.most_map_bytes = 1000}), kTooSmall);
+  EXPECT_EQ(complaint(source, {.alpha = 1e-9}), kTooSmall);
   EXPECT_EQ(complaint(source, {}, {.most_map_bytes = 8000}),
             "the map of cells needs more memory than it may take: allow more, or give alpha, max_edge_length "
             "or max_perimeter");
@@ -686,14 +679,13 @@ TEST(Stream, NoticesASourceThatChanges) {
       for (const Points& changed : {longer, shorter, moved, lost, shrunk}) {
         MemorySource source(points);
         source.change(pass, changed);
-        EXPECT_EQ(complaint(source, options, stream_options),
-                  "the source has other points than when it was read before");
+        EXPECT_EQ(complaint(source, options, stream_options), kOtherPoints);
       }
     }
   }
   MemorySource few(testing::uniform_points(100, 6));
   few.change(2, testing::uniform_points(101, 6));
-  EXPECT_EQ(complaint(few, {}), "the source has other points than when it was read before");
+  EXPECT_EQ(complaint(few, {}), kOtherPoints);
 }
 
 // After the sizes were found place by place, in the last three passes, the outline of a hole runs through a
@@ -707,7 +699,7 @@ TEST(Stream, NoticesAnOutlineWhereNoPointsWere) {
   source.hull({});
   MemorySource changes(points);
   changes.change(source.passes() - 2, mirrored);
-  EXPECT_EQ(complaint(changes, {}), "the source has other points than when it was read before");
+  EXPECT_EQ(complaint(changes, {}), kOtherPoints);
 }
 
 }  // namespace

@@ -482,12 +482,8 @@ TEST(Stress, OutlinesHaveTheirDeviationFromTheRings) {
   constexpr std::size_t kPoints = 2000;
   // The square's sides are 40 in all.
   const double deviation = 40.0 / kPoints * 0.5;
-  const auto& kinds = stress_kinds();
-  const auto outline =
-      std::ranges::find_if(kinds, [](const StressKind& kind) { return kind.name == "outline"; });
-  ASSERT_NE(outline, kinds.end());
-  const std::vector<Point> exact = sample_stressed(square(), kPoints, {{&*outline, 0}}, 3);
-  const std::vector<Point> moved = sample_stressed(square(), kPoints, {{&*outline, 0.5}}, 3);
+  const std::vector<Point> exact = sample_stressed(square(), kPoints, {{&kind_of("outline"), 0}}, 3);
+  const std::vector<Point> moved = sample_stressed(square(), kPoints, {{&kind_of("outline"), 0.5}}, 3);
   double squares = 0;
   std::vector<double> sides(4);
   for (std::size_t i = 0; i < kPoints; ++i) {
@@ -511,14 +507,8 @@ TEST(Stress, LakesAreEmptyAndTheRestIsEven) {
   ASSERT_EQ(lakes.centres().size(), kLakes);
   EXPECT_NEAR(kLakes * std::numbers::pi * lakes.radius() * lakes.radius(), 0.2 * polylidar::area(shape),
               1e-9);
-  for (const char* draws : {"", "airborne"}) {
-    std::vector<Stress> stresses;
-    for (const StressKind& kind : stress_kinds()) {
-      if (kind.name == draws) stresses.push_back({&kind, 1});
-    }
-    for (const StressKind& kind : stress_kinds()) {
-      if (kind.name == "water") stresses.push_back({&kind, 20});
-    }
+  for (const char* name : {"a~water:20", "a~airborne:1~water:20"}) {
+    const std::vector<Stress> stresses = split_stress(name)->second;
     const std::vector<Point> points = sample_stressed(shape, kPoints, stresses, 5);
     ASSERT_EQ(points.size(), kPoints);
     EXPECT_TRUE(std::ranges::none_of(points, [&](const Point& p) { return lakes.contain(p); }));

@@ -2,13 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "benchmarks/base/names.hpp"
-#include "benchmarks/record/json_lines.hpp"
 #include "datasets/sha256.hpp"
 #include "tests/complaint.hpp"
 #include "tests/hullbench_test.hpp"
@@ -22,16 +20,6 @@ json untimed(std::vector<json> rows) {
     for (const char* key : {"time_ns", "phases_ns", "rounds", "passes", "canary_ns"}) row.erase(key);
   }
   return rows;
-}
-
-/// Writes the rows of a run anew, each after `change`.
-void change_rows(const fs::path& run, const std::function<void(json&)>& change) {
-  std::string text;
-  for (json row : record::load_json_lines(run / "runs.jsonl").lines) {
-    change(row);
-    text += row.dump() + "\n";
-  }
-  write_text(run / "runs.jsonl", text);
 }
 
 class RescoreTest : public HullbenchTest {
@@ -55,7 +43,7 @@ TEST_F(RescoreTest, GivesTheSameScores) {
 
 TEST_F(RescoreTest, ScoresThatAreMissingOrWrongAreMended) {
   const json before = read_lines("kept/runs.jsonl");
-  change_rows(folder() / "kept", [](json& row) {
+  change_rows("kept", [](json& row) {
     row["metrics"]["l2"] = 0.5;
     row["metrics"].erase("hausdorff");
     row["flags"].push_back("worse_than_convex_hull");
@@ -66,7 +54,7 @@ TEST_F(RescoreTest, ScoresThatAreMissingOrWrongAreMended) {
 
 TEST_F(RescoreTest, ARowThatOnlyItsScoreMadeAFailureIsMended) {
   const json before = read_lines("kept/runs.jsonl");
-  change_rows(folder() / "kept", [](json& row) {
+  change_rows("kept", [](json& row) {
     row["status"] = "invalid_output";
     row["detail"] = "the result is an invalid polygon: Self-intersection";
   });
@@ -75,7 +63,7 @@ TEST_F(RescoreTest, ARowThatOnlyItsScoreMadeAFailureIsMended) {
 }
 
 TEST_F(RescoreTest, NeedsPolygonsAndPointsOfTheRow) {
-  change_rows(folder() / "kept", [](json& row) { row["dataset_sha256"] = std::string(64, '0'); });
+  change_rows("kept", [](json& row) { row["dataset_sha256"] = std::string(64, '0'); });
   expect_refusal(hullbench({"rescore", "kept", "--out", "again"}), 2, "are not those that were measured");
   EXPECT_FALSE(fs::exists(folder() / "again"));
   for (const auto& entry : fs::directory_iterator(folder() / "kept" / "polygons"))
@@ -106,9 +94,7 @@ class SubmissionTest : public HullbenchTest {
     if (!why.empty()) GTEST_SKIP() << why;
     ASSERT_EQ(hullbench({"adapter", "new", "my_hull", "--lang", "python", "--out", "methods"}).code, 0);
     // Debian's Python, which has numpy.
-    json manifest = read_json("methods/my_hull.json");
-    manifest["command"][0] = SYSTEM_PYTHON;
-    write_text(folder() / "methods" / "my_hull.json", manifest.dump());
+    change_json("methods/my_hull.json", [](json& manifest) { manifest["command"][0] = SYSTEM_PYTHON; });
   }
 
   fs::path pack() const { return folder() / "pack"; }
@@ -141,15 +127,13 @@ class SubmissionTest : public HullbenchTest {
   }
 
   void change_rows_of_pack(const std::function<void(json&)>& change) const {
-    change_rows(pack() / "run", [&](json& row) {
+    change_rows("pack/run", [&](json& row) {
       if ("my_hull" == row["method"].get<std::string>()) change(row);
     });
   }
 
   void change_run(const std::function<void(json&)>& change) const {
-    json run = read_json("pack/run/run.json");
-    change(run);
-    write_text(pack() / "run" / "run.json", run.dump());
+    change_json("pack/run/run.json", change);
   }
 };
 
@@ -234,9 +218,7 @@ TEST_F(SubmissionTest, WhatCannotBePacked) {
   expect_refusal(hullbench({"submit", "pack", "chi_shape", "--out", "other"}), 2,
                  "there is nothing to hand in");
   expect_refusal(hullbench({"submit", "pack", "magic", "--out", "other"}), 2, "magic");
-  json manifest = read_json("methods/my_hull.json");
-  manifest["runs"][0]["timeout_s"] = 3;
-  write_text(folder() / "methods" / "my_hull.json", manifest.dump());
+  change_json("methods/my_hull.json", [](json& manifest) { manifest["runs"][0]["timeout_s"] = 3; });
   expect_refusal(hullbench({"submit", "pack", "my_hull", "--adapters", "methods", "--out", "other"}), 2,
                  "timeout_s of its own");
   EXPECT_FALSE(fs::exists(folder() / "other"));

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <csignal>
-#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
@@ -23,11 +22,10 @@ class SuiteTest : public HullbenchTest {
   fs::path suite() const { return folder() / "suite"; }
 
   /// "first" with 500 and "second" with 600 points.
-  std::vector<std::string> run_both(std::vector<std::string> more = {"--out", "suite"}) const {
-    std::vector<std::string> words = {"run", write(small_plan("first", california({500}))),
-                                      write(small_plan("second", california({600})))};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
+  std::vector<std::string> run_both(const std::vector<std::string>& more = {"--out", "suite"}) const {
+    const std::string first = write(small_plan("first", california({500})));
+    const std::string second = write(small_plan("second", california({600})));
+    return joined({"run", first, second}, more);
   }
 };
 
@@ -178,6 +176,12 @@ TEST_F(SuiteTest, InAFolderWithAnotherSuiteIsRefused) {
   EXPECT_EQ(records_of(suite()), records);
 }
 
+TEST_F(SuiteTest, IsNotReadAfterARunWasForcedIntoItsFolder) {
+  ASSERT_EQ(hullbench(run_both()).code, 0);
+  const Outcome run = succeeded(hullbench({"run", "first.json", "--out", "suite", "--force"}));
+  EXPECT_EQ(hullbench({"tables", "suite"}).out, run.out);
+}
+
 TEST_F(SuiteTest, InAFolderThatCannotBeWrittenIsRefused) {
   fs::create_directory(folder() / "sealed");
   fs::permissions(folder() / "sealed", fs::perms::owner_read | fs::perms::owner_exec);
@@ -222,11 +226,10 @@ class InterruptedSuiteTest : public SuiteTest {
  protected:
   static constexpr int kRepetitions = 40;
 
-  std::vector<std::string> words(std::vector<std::string> more = {"--out", "suite"}) const {
-    std::vector<std::string> words = {"run", write(small_plan("first", california({500}))),
-                                      write(small_plan("second", california({2000, 3000}), kRepetitions))};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
+  std::vector<std::string> words(const std::vector<std::string>& more = {"--out", "suite"}) const {
+    const std::string first = write(small_plan("first", california({500})));
+    const std::string second = write(small_plan("second", california({2000, 3000}), kRepetitions));
+    return joined({"run", first, second}, more);
   }
 
   /// Starts the suite and sends `signal` in the middle of the second plan; how it ended.

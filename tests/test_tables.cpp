@@ -1,8 +1,6 @@
 // Tables: the whole text of a small report, and what must hold for any.
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -13,6 +11,7 @@
 #include "benchmarks/table/writers.hpp"
 #include "invented_shapes.hpp"
 #include "tests/complaint.hpp"
+#include "tests/program.hpp"
 
 namespace hullbench::testing {
 namespace {
@@ -27,10 +26,8 @@ std::string line_with(const std::string& text, const std::string& part, std::siz
 // After a wanted change: build/tests/write_invented_report FILE >tests/data/tables.md, and read the
 // difference.
 TEST(Tables, AreAsInTheGoldenFile) {
-  std::ifstream in(fs::path(HULLBENCH_SOURCE_DIRECTORY) / "tests/data/tables.md");
-  std::ostringstream golden;
-  golden << in.rdbuf();
-  EXPECT_EQ(markdown_of(invented_report({2000, 64000})), golden.str());
+  EXPECT_EQ(markdown_of(invented_report({2000, 64000})),
+            read_text(HULLBENCH_SOURCE_DIRECTORY "/tests/data/tables.md"));
 }
 
 TEST(Tables, FitATerminalOf120Columns) {

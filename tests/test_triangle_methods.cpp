@@ -25,6 +25,7 @@ namespace {
 using polylidar::Options;
 using polylidar::testing::canonical;
 using polylidar::testing::core_hull;
+using polylidar::testing::distance;
 
 /// Whether rounding decides nothing in Delaunator, whose tests of circles and distances are plain arithmetic;
 /// on cocircular points any of several triangulations is right, too.
@@ -215,8 +216,7 @@ std::vector<double> circumradii(const std::vector<Point>& points,
     const Point& b = points[triangulation.triangles[t + 1]];
     const Point& c = points[triangulation.triangles[t + 2]];
     const double cross = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    radii.push_back(std::hypot(b.x - a.x, b.y - a.y) * std::hypot(c.x - b.x, c.y - b.y) *
-                    std::hypot(a.x - c.x, a.y - c.y) / (2 * cross));
+    radii.push_back(distance(a, b) * distance(b, c) * distance(c, a) / (2 * cross));
   }
   return radii;
 }

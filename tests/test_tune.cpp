@@ -6,7 +6,6 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
-#include <filesystem>
 #include <map>
 #include <numbers>
 #include <set>
@@ -82,8 +81,7 @@ class TuneTest : public HullbenchTest {
                                       const std::vector<std::string>& more = {}) const {
     std::vector<std::string> words = {"tune",  plan,           "--methods",  methods_expression,
                                       "--out", folder() / out, "--adapters", methods()};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
+    return joined(std::move(words), more);
   }
 
   Outcome tune(const std::string& plan, const std::string& methods_expression, const std::string& out,

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -28,7 +27,7 @@ namespace hullbench::testing {
 namespace {
 
 /// Uniform in the square of side 100 without a disc, in metres of UTM.
-Points square_without_a_disc() {
+Points utm_square_without_a_disc() {
   Points points;
   std::mt19937 random(11);
   while (points.size() < 4000) {
@@ -171,13 +170,11 @@ class VectorFormatsTest : public ::testing::Test {
     data.add_points(data.layer("points", wkbPoint, system), points_);
     return path(name);
   }
-  static Outcome run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), POLYLIDAR_WITH_GDAL);
-    return run_program(arguments);
+  static Outcome run(const std::vector<std::string>& arguments) {
+    return run_program(joined({POLYLIDAR_WITH_GDAL}, arguments));
   }
   static std::string result(const std::vector<std::string>& arguments) {
-    const Outcome outcome = succeeded(run(arguments));
-    return outcome.out;
+    return succeeded(run(arguments)).out;
   }
   /// The only layer of a file.
   static ReadLayer layer_of(const std::string& written) {
@@ -193,7 +190,7 @@ class VectorFormatsTest : public ::testing::Test {
   }
 
   TemporaryFolder folder_;
-  Points points_ = square_without_a_disc();
+  Points points_ = utm_square_without_a_disc();
 };
 
 TEST_F(VectorFormatsTest, ThePolygonsAreThoseOfTheSamePointsAsText) {
@@ -313,7 +310,7 @@ TEST_F(VectorFormatsTest, CoordinateSystemsPassThrough) {
   EXPECT_NEAR(std::stod(feature_of(layer).fields.at("area")), square * (1 - 0.04 * 3.14159), 0.03 * square);
 
   // One without a number, which GeoJSON cannot name.
-  points_ = square_without_a_disc();
+  points_ = utm_square_without_a_disc();
   const std::string mollweide =
       layer_file("mollweide.gpkg", "GPKG", "+proj=moll +lon_0=7 +datum=WGS84 +units=m");
   const Outcome named = run({"hull", mollweide, "-o", path("named.gpkg")});
@@ -384,9 +381,7 @@ TEST_F(VectorFormatsTest, WhatCannotBeRead) {
 
 TEST_F(VectorFormatsTest, WhatCannotBeWritten) {
   const auto to = [&](const std::string& out, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> arguments = {"hull", csv(), "-o", out};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run(arguments);
+    return run(joined({"hull", csv(), "-o", out}, more));
   };
   expect_refusal(to("/nowhere/out.gpkg"), 1, "cannot write /nowhere/out.gpkg");
   expect_refusal(to(path("out.gpkg"), {"--format", "gdal:Nothing"}), 2, "this GDAL has no driver 'Nothing'");

@@ -66,10 +66,7 @@ class MethodSessionTest : public ::testing::Test {
 
   worker::Attempt run(std::chrono::milliseconds timeout = 30s,
                       worker::Watch watch = worker::Watch::kNothing) {
-    const std::vector<Point> points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    worker::write_points_file(folder_.path() / "points", points);
-    return session_->run({"square", folder_.path() / "points", points.size()}, {{"size", 1}}, folder_.path(),
-                         timeout, watch);
+    return session_->run(square(), {{"size", 1}}, folder_.path(), timeout, watch);
   }
 
   /// A session with a method that compiles while it runs, and its warm-up.
@@ -78,10 +75,14 @@ class MethodSessionTest : public ::testing::Test {
     method.jit = true;
     start(method);
     EXPECT_TRUE(session_->is_cold());
+    return session_->warm_up(square(), {{"size", 1}}, folder_.path(), 30s);
+  }
+
+  /// Its corners, in a file.
+  worker::LoadedPoints square() const {
     const std::vector<Point> points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     worker::write_points_file(folder_.path() / "points", points);
-    return session_->warm_up({"square", folder_.path() / "points", points.size()}, {{"size", 1}},
-                             folder_.path(), 30s);
+    return {"square", folder_.path() / "points", points.size()};
   }
 
   TemporaryFolder folder_;
@@ -97,7 +98,6 @@ TEST_F(MethodSessionTest, AGoodWorkerGivesResultAndTimes) {
   EXPECT_GT(result.phases_ns.at("outside"), result.time_ns());
   EXPECT_EQ(result.phases_ns.at("run.shape"), 900);
   EXPECT_EQ(polylidar::area(from_wkb(result.wkb)), 1.0);
-  EXPECT_GT(result.elapsed, 1010ns);
   // Only the points are left: results are removed once they are read.
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1);
 }
@@ -188,6 +188,7 @@ TEST_F(MethodSessionTest, ALimitInWhichNoWorkerCanStartIsALackOfMemory) {
   const worker::Attempt result = run();
   EXPECT_EQ(to_string(result.status), "memory") << result.detail;
 }
+
 TEST_F(MethodSessionTest, FloodOfErrorOutputDoesNotBlockTheWorker) {
   EXPECT_EQ(attempt("flood_errors").status, record::Status::kOk);
   EXPECT_EQ(run().status, record::Status::kOk);

@@ -2,7 +2,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
-#include <string>
 #include <vector>
 
 #include "benchmarks/base/files.hpp"

@@ -268,6 +268,7 @@ page_test("the table's commands name the run", {}, async (page) => {
   const row = (await open_table(page)).first();
   const [run, command] = [await row.getAttribute("data-run"), await row.locator("code").innerText()];
   assert.ok(command.replaceAll("\\", "").includes(run), `${command} does not name ${run}`);
+  assert.ok(command.includes(` --seed ${report.seed} `), `${command} would draw other points`);
 });
 
 page_test("the gallery lists every case with a picture, the worst of the chosen method first", {}, async (page) => {
