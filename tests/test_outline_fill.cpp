@@ -249,7 +249,7 @@ TEST(OutlineFill, IsAskedOfFlatTrianglesAcrossWideGaps) {
   EXPECT_TRUE(is_asked(ring_island_and_disc(1)));
   EXPECT_TRUE(is_asked(testing::circle(400, 1)));
   EXPECT_TRUE(is_asked(testing::circle(200, 1))) << "few, but on their hull";
-  std::vector<Point> with_an_inside = testing::circle(200, 1);
+  std::vector<Point> with_an_inside = testing::circle(24, 1);
   with_an_inside.push_back({0, 0});
   EXPECT_FALSE(is_asked(with_an_inside)) << "few";
   EXPECT_FALSE(is_asked(frame(3000, 0.03, 1))) << "across wide gaps, but not flat";

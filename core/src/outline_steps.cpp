@@ -33,7 +33,7 @@ bool are_all_on_hull(const Mesh& mesh) {
 
 std::optional<double> squared_outline_step(const Mesh& mesh, const Point* vertices, double points,
                                            double step) {
-  constexpr double kFewest = 256;
+  constexpr double kFewest = 32;
   constexpr double kFewestOnHull = 8;
   constexpr double kFlatOnHull = 0.25;  // half of the triangles of a regular dodecagon are as flat
   constexpr double kLeastShare = 0.06;  // of triangles that span from one outline to another
