@@ -269,7 +269,7 @@ std::vector<LimitVariant> limit_ablations() {
   std::vector<LimitVariant> variants = {{"whole rule", {}},
                                         {"growth not bounded", {.growth = kInfinity}},
                                         {"not smoothed", {.smoothed_from = kNever}},
-                                        {"clusters not recognised", {.even_sizes = kInfinity, .even_edges = kInfinity}},
+                                        {"clusters not recognised", {.doubt = 0}},
                                         {"not shrunk to the median", {.noise = 0, .smoothed_from = kNever}},
                                         {"one block: one limit for all", {.noise = kInfinity}},
                                         {"spikes stay", {.spike = kInfinity}},

@@ -116,8 +116,7 @@ double AreaGrowth::usual_size4(double points, const AutomaticConstants& constant
   return fourth_power(constants.usual) * log * log * unit4_ * kInCell;
 }
 
-double AreaGrowth::steadiest_size4(double points, double shift, double doubt,
-                                   const AutomaticConstants& constants) const {
+double AreaGrowth::steadiest_size4(double points, double doubt, const AutomaticConstants& constants) const {
   constexpr double kLeast = 1.2;  // for s, in median sizes of the sample
   constexpr double kMost = 8;
   std::array<double, kCells> log_size{};
@@ -128,7 +127,7 @@ double AreaGrowth::steadiest_size4(double points, double shift, double doubt,
     log_area[c] = std::log(below);
     below += std::max(area_[c], 0.0);
   }
-  const double log_usual = std::log(constants.usual * std::sqrt(std::log(points))) + shift;
+  const double log_usual = std::log(constants.usual * std::sqrt(std::log(points)));
   const double pull_of_n = constants.pull * std::pow(points, -0.2);
   double least_cost = std::numeric_limits<double>::infinity();
   double steadiest = std::max(log_usual, std::log(kLeast));  // where the areas of all are zero by rounding

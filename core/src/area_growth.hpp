@@ -56,10 +56,9 @@ class AreaGrowth {
                 double points, ThreadPool& pool);
   /// The fourth power of the usual place of s, in usual sizes, among so many points.
   double usual_size4(double points, const AutomaticConstants& constants) const;
-  /// The fourth power of the s of the rule, in usual sizes, among so many points. `shift`: what is added to
-  /// the logarithm of the usual place. `doubt`: what the pull on larger sizes is divided by.
-  double steadiest_size4(double points, double shift, double doubt,
-                         const AutomaticConstants& constants) const;
+  /// The fourth power of the s of the rule, in usual sizes, among so many points. `doubt`: what the pull on
+  /// larger sizes is divided by.
+  double steadiest_size4(double points, double doubt, const AutomaticConstants& constants) const;
 
  private:
   /// Cells of the grid of sizes; 16 cells cover one octave.

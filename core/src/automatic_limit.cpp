@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "clusters.hpp"
 #include "kernels.hpp"
 #include "outline_steps.hpp"
 #include "quantile.hpp"
@@ -139,7 +140,7 @@ bool AutomaticLimit::find_one(const PointPasses& points, const Box& box, ThreadP
     if (one.squared_radius >= wide_radius_ * wide_radius_) continue;
     areas_.add(one.size4 / usual4, one.twice_area / std::sqrt(usual4), 1);
   }
-  clustering_ = {};
+  doubt_ = 1;
   return !areas_.is_empty();
 }
 
@@ -166,7 +167,7 @@ bool AutomaticLimit::find_places(const PointPasses& points, ThreadPool& pool,
                     [](const auto& one) { return is_flat(one.twice_area, one.squared_longest); });
   if (2 * static_cast<std::size_t>(flat) >= windows_.triangles().size()) return false;  // maybe outlines
   if (excess_scatter(windows_, constants) > 0) return false;                            // clusters
-  clustering_ = {};
+  doubt_ = 1;
   for (const auto& [place, neighbour] : windows_.borders()) {
     sizes_.borders(0).push_back({place, neighbour, 0});
   }
@@ -234,7 +235,7 @@ void AutomaticLimit::choose_by_blocks(const DelaunayBuilder& builder, double det
   if (!areas_.is_empty()) {
     areas_.sum_up();
     const UsualLimit usual{field_.block_of_vertex, sizes_.usual4(), areas_.usual_size4(points, constants)};
-    clustering_ = clustering(sized, blocks_, usual, constants);
+    doubt_ = 1 + constants.doubt * excess_scatter(sized, blocks_, usual, constants);
   }
   set_field(points, detail, constants);
   look_for_outlines(sized, points, detail, constants.step);
@@ -283,8 +284,7 @@ void AutomaticLimit::set_field(double points, double detail, const AutomaticCons
   field_.wide_radius = 0;
   field_.outlines.reset();
   if (areas_.is_empty()) return;  // no triangle
-  const double limit4 = steadiest4_ =
-      areas_.steadiest_size4(points, clustering_.shift, 1 + constants.doubt * clustering_.excess, constants);
+  const double limit4 = steadiest4_ = areas_.steadiest_size4(points, doubt_, constants);
   field_.spike_share = fourth_power(constants.spike) / limit4;
   field_.least_part = static_cast<std::size_t>(constants.part * std::log(points));
   field_.wide_square = least_wide_square(points, constants.wide, kPointsPerBorderSquare) / (detail * detail);

@@ -7,7 +7,6 @@
 
 #include "area_growth.hpp"
 #include "automatic_constants.hpp"
-#include "clusters.hpp"
 #include "delaunay_builder.hpp"
 #include "mesh_blocks.hpp"
 #include "point_passes.hpp"
@@ -38,8 +37,8 @@ enum class SizesBy : std::uint8_t {
 ///
 /// **Clusters.** If points cluster, the voids between the clusters are ordinary, though they are larger than
 /// voids elsewhere. So the usual limit is less reliable. Points count as clustered if lengths in a block
-/// scatter more than without clusters (clustering). Then the pull on larger limits is divided by 1 plus
-/// `doubt` times the excess scatter, and the usual limit moves towards that of the clusters.
+/// scatter more than without clusters (excess_scatter). Then the pull on larger limits is divided by 1 plus
+/// `doubt` times the excess scatter.
 ///
 /// **Places.** Of many points whose density varies by a few times, the usual sizes come from small windows,
 /// as one size for all places does: one window for each of up to 4096 squares instead of blocks
@@ -109,8 +108,8 @@ class AutomaticLimit {
   Scratch<double> size4_;  ///< of all triangles, for the field
   std::optional<ChosenSizes> range_;
   std::vector<double> scratch_;  ///< values of which a quantile is taken
-  Clustering clustering_;
-  double steadiest4_ = 0;  ///< fourth power of the limit at a detail of 1, in usual sizes
+  double doubt_ = 1;             ///< what the pull on larger limits is divided by
+  double steadiest4_ = 0;        ///< fourth power of the limit at a detail of 1, in usual sizes
   // What look() found:
   SizesBy found_ = SizesBy::kBlocks;
   double points_ = 0;  ///< number of points without repeats

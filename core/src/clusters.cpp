@@ -70,14 +70,8 @@ double excess_scatter_of_edges(const SizedMesh& sized, const AutomaticConstants&
                   0.0);
 }
 
-/// The pieces in which the usual limit leaves the points.
-struct Pieces {
-  double share_outside = 0;  ///< of the points, not in the largest piece
-  double count = 0;
-  double between4 = 0;  ///< median size4 of triangles between three pieces, in usual ones; 0: there are none
-};
-
-Pieces find_pieces(const SizedMesh& sized, const UsualLimit& usual) {
+/// The usual limit leaves the points in pieces: returns the share of them that is not in the largest piece.
+double share_outside_largest_piece(const SizedMesh& sized, const UsualLimit& usual) {
   const Mesh& mesh = sized.mesh;
   const auto for_each_triangle = [&](const auto& visit) {
     for_some_triangles(mesh, 0, mesh.triangle_count(), 1, visit);
@@ -106,47 +100,23 @@ Pieces find_pieces(const SizedMesh& sized, const UsualLimit& usual) {
   for (const Mesh::Index v : next) {
     if (v != kNone) ++points_of_piece[standing_for(v)];
   }
-  Pieces pieces;
-  pieces.share_outside = 1 - *std::max_element(points_of_piece.begin(), points_of_piece.end()) / points;
-  pieces.count = static_cast<double>(
-      std::count_if(points_of_piece.begin(), points_of_piece.end(), [](auto count) { return count > 0; }));
-  std::vector<double> between;
-  for_each_triangle([&](Mesh::Index t) {
-    const Mesh::Index* const corner = mesh.corners(t);
-    const Mesh::Index a = standing_for(corner[0]);
-    const Mesh::Index b = standing_for(corner[1]);
-    const Mesh::Index c = standing_for(corner[2]);
-    if (a == b || b == c || c == a) return;
-    between.push_back(sized.size4_of(t) / usual.usual4[usual.block_of_vertex[t / 2]]);
-  });
-  if (!between.empty()) pieces.between4 = quantile_of(between, 0.5);
-  return pieces;
-}
-
-/// How far the logarithm of the usual limit moves; see clustering().
-double shift_of(const Pieces& pieces, double excess, const UsualLimit& usual,
-                const AutomaticConstants& constants) {
-  constexpr double kNoneUpTo = 0.04;  // of the excess
-  constexpr double kFullFrom = 0.1;
-  if (excess <= kNoneUpTo || !(pieces.between4 > 0)) return 0;
-  const double log = std::log(pieces.count);
-  const double of_pieces4 = fourth_power(constants.usual) * log * log * pieces.between4;
-  const double weight = pieces.share_outside * std::min(1.0, (excess - kNoneUpTo) / (kFullFrom - kNoneUpTo));
-  return weight * std::max(0.0, std::log(of_pieces4 / usual.limit4) / 4);
+  return 1 - *std::max_element(points_of_piece.begin(), points_of_piece.end()) / points;
 }
 
 }  // namespace
 
-Clustering clustering(const SizedMesh& sized, const MeshBlocks& blocks, const UsualLimit& usual,
+double excess_scatter(const SizedMesh& sized, const MeshBlocks& blocks, const UsualLimit& usual,
                       const AutomaticConstants& constants) {
   constexpr std::size_t kFewestBlocks = 16;
   constexpr std::size_t kEnoughBlocks = 96;
   constexpr Mesh::Index kRecords = 128;  // of a block
   constexpr double kSurely = 0.4;        // of the excess, where pieces must confirm it
+  const auto share_in_pieces = [&](double most) {
+    return std::min(1.0, share_outside_largest_piece(sized, usual) / most);
+  };
   if (blocks.count() < kFewestBlocks) {
     const double excess = excess_scatter_of_edges(sized, constants);
-    if (excess == 0) return {};
-    return {kSurely * excess * std::min(1.0, find_pieces(sized, usual).share_outside / 0.25), 0};
+    return excess == 0 ? 0 : kSurely * excess * share_in_pieces(0.25);
   }
   const auto scatter = [&](const auto& length4_of) {
     return scatter_in_blocks(blocks.count(), [&](std::size_t block, bool of_all, const auto& visit) {
@@ -158,16 +128,14 @@ Clustering clustering(const SizedMesh& sized, const MeshBlocks& blocks, const Us
     });
   };
   const double of_sizes = scatter([&](Mesh::Index t) { return sized.size4_of(t); }) - constants.even_sizes;
-  if (of_sizes <= 0) return {};
+  if (of_sizes <= 0) return 0;
   const double of_edges = scatter([&](Mesh::Index t) {
     const double squared = sized.triangle(t).squared_shortest_edge();
     return squared * squared;
   });
-  const double all = std::clamp(of_edges - constants.even_edges, 0.0, of_sizes);
-  if (all == 0 || blocks.count() >= kEnoughBlocks) return {all, 0};
-  const Pieces pieces = find_pieces(sized, usual);
-  const double excess = all * (kSurely + (1 - kSurely) * std::min(1.0, pieces.share_outside / 0.5));
-  return {excess, shift_of(pieces, excess, usual, constants)};
+  const double excess = std::clamp(of_edges - constants.even_edges, 0.0, of_sizes);
+  if (excess == 0 || blocks.count() >= kEnoughBlocks) return excess;
+  return excess * (kSurely + (1 - kSurely) * share_in_pieces(0.5));
 }
 
 double excess_scatter(const WindowSample& windows, const AutomaticConstants& constants) {

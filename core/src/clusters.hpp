@@ -17,16 +17,10 @@ struct UsualLimit {
   double limit4;                   ///< the fourth power of the limit, in usual sizes
 };
 
-/// How strongly points cluster, and how much larger the usual limit then is.
-struct Clustering {
-  /// By how much sizes of triangles and their shortest edges both scatter more than those of points that do
-  /// not cluster; 0 if one of them does not. On scan lines and roads the sizes scatter, but the shortest
-  /// edges do not.
-  double excess = 0;
-  /// What is added to the logarithm of the usual limit, 0 or more.
-  double shift = 0;
-};
-
+/// By how much sizes of triangles and their shortest edges both scatter more than those of points that do not
+/// cluster; 0 if one of them does not. On scan lines and roads the sizes scatter, but the shortest edges do
+/// not.
+///
 /// The fewer blocks there are, the less their scatters say: thin shapes and outliers make lengths scatter,
 /// too. But the usual limit leaves a thin shape in one piece, and clusters in many. So in fewer than 96
 /// blocks only two fifths of the excess count for certain. The rest counts in proportion to the share of the
@@ -37,14 +31,9 @@ struct Clustering {
 /// together, and their scatter must be surely larger. If half of the triangles are flat, points lie on lines
 /// or outlines, whose steps scatter without clusters. Two fifths of the excess count, in proportion to the
 /// share of the points outside the largest piece, up to a quarter of them.
-///
-/// From 16 to 95 blocks the limit may also move towards the one that would be usual if each piece were a
-/// point: among m pieces, that is `usual` sqrt(log m) times the median size of the triangles between three
-/// pieces. It moves by the share of the points outside the largest piece, and fully only from an excess of
-/// 0.1 on; not at all up to 0.04.
-Clustering clustering(const SizedMesh& sized, const MeshBlocks& blocks, const UsualLimit& usual,
+double excess_scatter(const SizedMesh& sized, const MeshBlocks& blocks, const UsualLimit& usual,
                       const AutomaticConstants& constants);
-/// The excess in the windows of places, after look_by_places() returned true.
+/// The same of the windows of places, after look_by_places() returned true.
 double excess_scatter(const WindowSample& windows, const AutomaticConstants& constants);
 
 }  // namespace polylidar::detail

@@ -35,10 +35,12 @@ std::optional<double> squared_outline_step(const Mesh& mesh, const Point* vertic
                                            double step) {
   constexpr double kFewest = 32;
   constexpr double kFewestOnHull = 8;
+  constexpr double kMostOnHull = 256;   // of more, the walls tell
   constexpr double kFlatOnHull = 0.25;  // half of the triangles of a regular dodecagon are as flat
   constexpr double kLeastShare = 0.06;  // of triangles that span from one outline to another
   constexpr double kMedianGap = 0.6931471805599453;  // log 2, of the mean
-  if (points < kFewest && (points < kFewestOnHull || !are_all_on_hull(mesh))) return std::nullopt;
+  const bool is_convex = points >= kFewestOnHull && points < kMostOnHull && are_all_on_hull(mesh);
+  if (points < kFewest && !is_convex) return std::nullopt;
   // Of about so many records.
   const auto for_some = [&](std::size_t number, const auto& visit) {
     for (std::size_t i = 0; i < mesh.triangle_count(); i += (mesh.triangle_count() / number) | 1U) {
@@ -50,11 +52,11 @@ std::optional<double> squared_outline_step(const Mesh& mesh, const Point* vertic
   std::size_t flat = 0;
   for_some(256, [&](const Triangle& triangle) {
     ++looked_at;
-    const double share = points < kFewest ? kFlatOnHull : kFlat;
+    const double share = is_convex ? kFlatOnHull : kFlat;
     flat += is_flat(triangle.twice_area(), triangle.squared_longest_edge(), share) ? 1U : 0U;
   });
   if (looked_at == 0 || 2 * flat < looked_at) return std::nullopt;
-  if (points < kFewest) return std::numeric_limits<double>::infinity();
+  if (is_convex) return std::numeric_limits<double>::infinity();
 
   std::vector<double> shortest;  // squares of edges, triangle by triangle
   std::vector<double> second;

@@ -23,10 +23,10 @@ inline bool is_flat(double twice_area, double squared_longest, double share = kF
 /// than log n + 3 times. If half of the triangles are flat, and many have two edges longer than log n +
 /// `step` mean distances, OutlineFill finds what the curves enclose.
 ///
-/// Returns the square of that length if some of the triangles tell so. Fewer than 32 points of a thin shape
-/// lie alike. So these are on an outline only if there are 8 at least, all on their convex hull. Then it is
-/// enough that half of the triangles are flat, here up to 0.25, and the hull is what they enclose (infinity).
-/// `points`: how many do not repeat others.
+/// Returns the square of that length if some of the triangles tell so, and there are 32 points at least:
+/// fewer of a thin shape lie alike. If all of 8 to 255 points lie on their convex hull, it is enough that
+/// half of the triangles are flat, here up to 0.25, and the hull is what they enclose (infinity). `points`:
+/// how many do not repeat others.
 std::optional<double> squared_outline_step(const Mesh& mesh, const Point* vertices, double points,
                                            double step);
 
