@@ -1,6 +1,7 @@
 #include "tool/points/block_reader.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -93,9 +94,12 @@ std::size_t BlockReader::read_some(char* to, std::size_t size) {
 }
 
 std::size_t BlockReader::read_raw(char* to, std::size_t size) {
+  constexpr int kMilliseconds = 200;  // so that an interruption just before the wait is seen, too
   for (;;) {
-    const ssize_t count = ::read(file_, to, size);
-    if (count < 0 && errno != EINTR) fail("it cannot be read: " + reason(errno));
+    pollfd wait{file_, POLLIN, 0};
+    const int ready = ::poll(&wait, 1, kMilliseconds);
+    const ssize_t count = ready > 0 ? ::read(file_, to, size) : -1;
+    if (count < 0 && ready != 0 && errno != EINTR) fail("it cannot be read: " + reason(errno));
     taken_ += static_cast<std::uint64_t>(std::max<ssize_t>(count, 0));
     // Also after a signal, so that an interruption is seen while a pipe stays silent.
     if (options_.on_progress) options_.on_progress(taken_, size_);
