@@ -263,7 +263,8 @@ void AutomaticLimit::look_for_outlines(const SizedMesh& sized, double points, do
   const std::optional<double> squared_step = squared_outline_step(sized.mesh, sized.vertices, points, step);
   if (!squared_step) return;
   double twice_area = 0;
-  const bool is_compared = std::isfinite(*squared_step);  // else the hull is taken, whatever is kept without
+  // If all points lie on their hull, it is taken however much of it is within the limit.
+  const bool is_compared = std::isfinite(*squared_step);
   for (Mesh::Index t = 0; is_compared && t < sized.mesh.triangle_count(); ++t) {
     if (sized.mesh.is_ghost(t)) continue;
     const double size4 = sized.size4_of(t) / sizes_.usual4()[field_.block_of_vertex[t / 2]];
