@@ -74,8 +74,9 @@ class VertexGrid {
  private:
   /// Never decreases with `value`, so that what is between two values is between their cells.
   std::size_t cell_of(double value, double least, double most) const {
-    // Halves, since the whole of -1e308 to 1e308 is infinite.
-    const double share = most > least ? (value / 2 - least / 2) / (most / 2 - least / 2) : 0;
+    // Halves, since the whole of -1e308 to 1e308 is infinite. Half of the least number above 0 is 0.
+    const double half_width = most / 2 - least / 2;
+    const double share = half_width > 0 ? (value / 2 - least / 2) / half_width : 0;
     return std::min(side_ - 1, static_cast<std::size_t>(share * static_cast<double>(side_)));
   }
   std::size_t column_of(double x) const { return cell_of(x, box_.min.x, box_.max.x); }
