@@ -1,12 +1,26 @@
 # cmake -DROOT=FOLDER -DLIST=FILE -DOUTPUT=FILE -DDEPFILE=FILE -P hash_sources.cmake
 #
 # Writes OUTPUT, a C++ header with the hash of what each method of LIST is made of: the first 8 digits of the SHA-256 over
-# its sources and all that these include in quotes, from their own folder, ROOT or ROOT/core/include, and so on. A
-# file's name and place do not count. LIST has a line NAME|SOURCE|SOURCE... for each method. DEPFILE tells the build what
-# was read.
+# its sources and all that these include in quotes, from their own folder, ROOT or ROOT/core/include, and so on. With a
+# header its source counts, which is beside it or, for ROOT/core/include/polylidar/NAME.hpp, ROOT/core/src/NAME.cpp: what
+# every method is linked with, such as the reader of WKB, is in nobody's list of sources. A file's name and place do not
+# count. LIST has a line NAME|SOURCE|SOURCE... for each method. DEPFILE tells the build what was read.
 cmake_minimum_required(VERSION 3.25)
 
-# included_by(file result): the files of this project that `file` includes.
+# source_of(header result): the source of a header, if it has one.
+function(source_of header result)
+  cmake_path(GET header STEM name)
+  cmake_path(GET header PARENT_PATH folder)
+  if(folder STREQUAL "${ROOT}/core/include/polylidar")
+    set(folder "${ROOT}/core/src")
+  endif()
+  set(${result} "" PARENT_SCOPE)
+  if(EXISTS "${folder}/${name}.cpp")
+    set(${result} "${folder}/${name}.cpp" PARENT_SCOPE)
+  endif()
+endfunction()
+
+# included_by(file result): the files of this project that `file` includes, with the sources of the headers.
 function(included_by file result)
   get_property(known GLOBAL PROPERTY "INCLUDED_BY_${file}" SET)
   if(NOT known)
@@ -18,7 +32,8 @@ function(included_by file result)
       foreach(place IN ITEMS "${folder}" "${ROOT}" "${ROOT}/core/include")
         if(EXISTS "${place}/${name}")
           get_filename_component(path "${place}/${name}" ABSOLUTE)
-          list(APPEND found "${path}")
+          source_of("${path}" source)
+          list(APPEND found "${path}" ${source})
           break()
         endif()
       endforeach()

@@ -7,6 +7,7 @@
 // its tracing can close a ring with a chord that is no edge of the alpha shape and crosses other rings. The
 // rings cross as they come out of reconstruct(), before they are mapped and nested here (California, 32,000
 // points).
+#include <pcl/kdtree/kdtree_flann.h>
 #include <pcl/pcl_config.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
@@ -58,6 +59,7 @@ class PclConcaveHull final : public Adapter {
       cloud_->push_back(
           pcl::PointXYZ(static_cast<float>(point.x - middle.x), static_cast<float>(point.y - middle.y), 0));
     }
+    if (!cloud_->empty()) tree_.setInputCloud(cloud_);
   }
 
   void do_run(const Parameters& parameters, Steps& steps) override {
@@ -70,23 +72,23 @@ class PclConcaveHull final : public Adapter {
     hull.setInputCloud(cloud_);
     hull.setAlpha(alpha);
     hull.setDimension(2);
-    // Without it the vertices are what two rotations in single precision leave of the points.
-    hull.setKeepInformation(true);
-    Cloud vertices;
-    hull.reconstruct(vertices, polygons_);
-    hull.getHullPointIndices(point_of_);
+    // Information is not kept, as it is not in PCL's default and in its tutorial: PCL would build a tree of
+    // the points to find the one at each vertex. That serves only us, so the tree is built when the points
+    // are loaded.
+    hull.reconstruct(vertices_, polygons_);
   }
 
   MultiPolygon do_extract(Steps& steps) override {
     steps.begin("polygon");
+    // Vertices are what two rotations in single precision leave of the points.
+    const std::vector<std::size_t> point_of = nearest_points();
     std::vector<Ring> rings;
     rings.reserve(polygons_.size());
     for (const pcl::Vertices& polygon : polygons_) {
       Ring& ring = rings.emplace_back();
       ring.reserve(polygon.vertices.size());
       for (const auto vertex : polygon.vertices) {
-        ring.push_back(
-            points_[static_cast<std::size_t>(point_of_.indices[static_cast<std::size_t>(vertex)])]);
+        ring.push_back(points_[point_of[static_cast<std::size_t>(vertex)]]);
       }
     }
     return nest_rings(std::move(rings));
@@ -94,13 +96,27 @@ class PclConcaveHull final : public Adapter {
 
   void do_reset() override {
     polygons_.clear();
-    point_of_.indices.clear();
+    vertices_.clear();
+  }
+
+  /// Vertex of the hull -> the nearest input point.
+  std::vector<std::size_t> nearest_points() const {
+    std::vector<std::size_t> nearest;
+    nearest.reserve(vertices_.size());
+    pcl::Indices found(1);
+    std::vector<float> squared_distances(1);
+    for (const pcl::PointXYZ& vertex : vertices_) {
+      tree_.nearestKSearch(vertex, 1, found, squared_distances);
+      nearest.push_back(static_cast<std::size_t>(found.front()));
+    }
+    return nearest;
   }
 
   std::vector<Point> points_;
   Cloud::Ptr cloud_;
-  std::vector<pcl::Vertices> polygons_;  // rings of vertices of the hull
-  pcl::PointIndices point_of_;           // vertex of the hull -> the nearest input point
+  pcl::KdTreeFLANN<pcl::PointXYZ> tree_;  // of cloud_
+  Cloud vertices_;                        // of the hull
+  std::vector<pcl::Vertices> polygons_;   // rings of indices into vertices_
 };
 
 }  // namespace

@@ -17,6 +17,13 @@ hullbench_test(test_adapters
 add_test(NAME adapters.source_hashes
   COMMAND "${CMAKE_CURRENT_LIST_DIR}/check_source_hashes.sh" "${PROJECT_SOURCE_DIR}/adapters/hash_sources.cmake")
 set_tests_properties(adapters.source_hashes PROPERTIES LABELS adapters)
+# What workers in other languages do off the clock.
+set(check_helpers "${CMAKE_CURRENT_LIST_DIR}/check_worker_helpers.sh")
+hullbench_tool_test(NAME workers.javascript NEEDS node python3 COMMAND "${check_helpers}" javascript)
+hullbench_tool_test(NAME workers.python NEEDS "${SYSTEM_PYTHON}:numpy" COMMAND "${check_helpers}" python)
+hullbench_tool_test(NAME workers.java
+  NEEDS javac java python3 /usr/share/java/jts-core.jar /usr/share/java/gson.jar COMMAND "${check_helpers}" java)
+set_tests_properties(workers.javascript workers.python workers.java PROPERTIES LABELS adapters)
 if(TARGET hullbench_adapter_pcl_concave_hull)
   hullbench_test(test_pcl_concave_hull SOURCES test_pcl_concave_hull.cpp
     LIBRARIES hullbench_adapter_pcl_concave_hull hullbench_adapter_interface hullbench_test_support hullbench::metrics

@@ -7,13 +7,18 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 folder=$scratch
 cd "$folder"
-mkdir -p adapters core/include/kernel core/src
-echo '#include "adapters/shared.hpp"' >adapters/one.cpp
+mkdir -p adapters core/include/kernel core/include/polylidar core/src
+printf '#include "adapters/shared.hpp"\n#include "adapters/linked.hpp"\n' >adapters/one.cpp
+echo 'int linked();' >adapters/linked.hpp
+printf '#include "adapters/linked.hpp"\n#include "polylidar/area.hpp"\n' >adapters/linked.cpp # in no list, as wkb.cpp
+echo 'int area();' >core/include/polylidar/area.hpp
+echo '#include "polylidar/area.hpp"' >core/src/area.cpp
 echo '  #  include "kernel/kernel.hpp"  // deep' >adapters/shared.hpp
 echo 'int kernel();' >core/include/kernel/kernel.hpp
 printf '#include <vector>\n#include "private.hpp"\n#include "nowhere.hpp"\n' >core/src/kernel.cpp
 echo '#include "private.hpp"' >core/src/private.hpp
 echo 'int two();' >adapters/two.cpp
+echo 'It decides nothing.' >adapters/PROTOCOL.md
 printf '%s\n' "one|$folder/adapters/one.cpp|$folder/core/src/kernel.cpp" "two|$folder/adapters/two.cpp" >list.txt
 
 # hash METHOD: of the sources as they are now.
@@ -33,7 +38,8 @@ two=$(hash two)
 [ ${#one} -eq 8 ] && [ ${#two} -eq 8 ] && [ "$one" != "$two" ] || fail "two methods have the hashes '$one' and '$two'"
 [ "$(hash one)" = "$one" ] || fail "the same sources have another hash"
 
-for file in adapters/one.cpp adapters/shared.hpp core/include/kernel/kernel.hpp core/src/kernel.cpp \
+for file in adapters/one.cpp adapters/shared.hpp adapters/linked.hpp adapters/linked.cpp \
+  core/include/polylidar/area.hpp core/src/area.cpp core/include/kernel/kernel.hpp core/src/kernel.cpp \
   core/src/private.hpp; do
   grep -qF "$folder/$file" hashes.d || fail "the build is not told that $file was read"
   cp "$file" kept
@@ -43,6 +49,8 @@ for file in adapters/one.cpp adapters/shared.hpp core/include/kernel/kernel.hpp 
   cp kept "$file"
 done
 [ "$(hash one)" = "$one" ] || fail "taking the changes back does not bring the hash back"
+echo '// changed' >>adapters/PROTOCOL.md
+[ "$(hash one)" = "$one" ] || fail "a text that no source includes changes the hash"
 
 mkdir elsewhere
 cp -r adapters core elsewhere

@@ -134,6 +134,8 @@ TEST_F(ManifestTest, ItsHashIsThatOfTheManifestAndTheProgramBesideIt) {
   write_text(folder_.path() / "my_hull.py", "print(2)");
   const std::string other_program = run::load_manifest(write(good_manifest())).sha256;
   EXPECT_NE(other_program, first);
+  write_text(folder_.path() / "README.md", "About it.");
+  EXPECT_EQ(run::load_manifest(write(good_manifest())).sha256, other_program) << "a text decides nothing";
   json manifest = good_manifest();
   manifest["title"] = "Another";
   EXPECT_NE(run::load_manifest(write(manifest)).sha256, other_program);

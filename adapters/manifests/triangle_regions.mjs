@@ -12,9 +12,20 @@ const kNone = -1;
 const kDropped = -1;
 const kWaiting = -2;
 
-const triangle_of = (e) => Math.trunc(e / 3);
+const triangle_of = (e) => (e / 3) | 0; // e < 2^31
 const next = (e) => (e % 3 === 2 ? e - 2 : e + 1);
 const previous = (e) => (e % 3 === 0 ? e + 2 : e - 1);
+
+/**
+ * Whether a perimeter is within a finite limit, by its squared edges. It is more than two and at most three longest edges,
+ * which decides for nearly all triangles without a root.
+ */
+function is_perimeter_within(limit, ab, bc, ca, longest) {
+  const squared = limit * limit;
+  if (9 * longest <= squared) return true;
+  if (4 * longest > squared) return false;
+  return Math.sqrt(ab) + Math.sqrt(bc) + Math.sqrt(ca) <= limit;
+}
 
 /**
  * Whether a triangle is within the limits, all inclusive; one that is infinite is not tested. The circumradius,
@@ -34,8 +45,9 @@ function filter_for(coords, { alpha, max_edge_length, max_perimeter }) {
     const ab = squared_distance(a, b);
     const bc = squared_distance(b, c);
     const ca = squared_distance(c, a);
-    if (Math.max(ab, bc, ca) > max_edge_length * max_edge_length) return false;
-    if (max_perimeter !== Infinity && !(Math.sqrt(ab) + Math.sqrt(bc) + Math.sqrt(ca) <= max_perimeter)) return false;
+    const longest = Math.max(ab, bc, ca);
+    if (longest > max_edge_length * max_edge_length) return false;
+    if (max_perimeter !== Infinity && !is_perimeter_within(max_perimeter, ab, bc, ca, longest)) return false;
     return alpha === Infinity || ab * bc * ca <= 4 * alpha * alpha * doubled_area(a, b, c) ** 2;
   };
 }
@@ -47,18 +59,19 @@ function label_regions({ triangles, halfedges }, is_within) {
     regions[t] = is_within(triangles[3 * t], triangles[3 * t + 1], triangles[3 * t + 2]) ? kWaiting : kDropped;
   }
   let count = 0;
-  const open = []; // in the region, but their neighbours not yet
+  const open = new Int32Array(regions.length); // in the region, but their neighbours not yet
+  let open_count = 0;
   for (let first = 0; first < regions.length; ++first) {
     if (regions[first] !== kWaiting) continue;
     regions[first] = count;
-    open.push(first);
-    while (open.length > 0) {
-      const t = open.pop();
+    open[open_count++] = first;
+    while (open_count > 0) {
+      const t = open[--open_count];
       for (let e = 3 * t; e < 3 * t + 3; ++e) {
         const neighbour = halfedges[e] === kNone ? kNone : triangle_of(halfedges[e]);
         if (neighbour === kNone || regions[neighbour] !== kWaiting) continue;
         regions[neighbour] = count;
-        open.push(neighbour);
+        open[open_count++] = neighbour;
       }
     }
     ++count;
@@ -91,8 +104,9 @@ function trace_rings({ triangles, halfedges }, regions) {
   const rings = [];
   for (let first = 0; first < halfedges.length; ++first) {
     const region = regions[triangle_of(first)];
-    const is_boundary = halfedges[first] === kNone || regions[triangle_of(halfedges[first])] !== region;
-    if (region === kDropped || is_traced[first] || !is_boundary) continue;
+    if (region === kDropped || is_traced[first]) continue;
+    const twin = halfedges[first];
+    if (twin !== kNone && regions[triangle_of(twin)] === region) continue;
     const ring = [];
     for (let e = first; !is_traced[e]; e = following(e)) {
       is_traced[e] = 1;

@@ -62,7 +62,7 @@ std::vector<NewFile> script_files(const NewAdapterCommand& command) {
   const std::string ending = python ? ".py" : ".mjs";
   // Not NAME.py, which would hide a module of that name from every method of the folder.
   const std::string script = command.name + "_worker" + ending;
-  const std::string words = (python ? R"("python3", "./)" : R"("node", "./)") + script + "\"";
+  const std::string words = (python ? R"("python3", "./)" : R"("node", "--expose-gc", "./)") + script + "\"";
   const std::string helper = "hullbench_worker" + ending;
   std::string manifest = replace_all(required_text(kSkeletons / "skeleton.json"), "@NAME@", command.name);
   manifest = replace_all(manifest, "@COMMAND@", words);

@@ -50,12 +50,13 @@ void check_parameters(const MethodInfo& info, const std::string& source) {
   }
 }
 
-/// The hashes of the files in `folder` that are no manifests and no data: what a method there may be made of.
+/// The hashes of the files in `folder` that are no manifests, no data and no texts (.md): what a method there
+/// may be made of.
 std::vector<std::string> program_hashes(const fs::path& folder) {
   std::vector<std::string> hashes;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    if (entry.is_regular_file(ignored) && !is_manifest(entry.path()) &&
+    if (entry.is_regular_file(ignored) && !is_manifest(entry.path()) && entry.path().extension() != ".md" &&
         entry.file_size(ignored) <= kLargestProgram) {
       hashes.push_back(sha256_file(entry.path()));
     }
