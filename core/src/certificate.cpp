@@ -97,9 +97,42 @@ constexpr unsigned kStrip = 32;
 constexpr int kSide = 16;
 static_assert(kReach <= kSide);
 constexpr std::size_t kLevels = 4;
+/// So many are checked at once if one of them may have uncertain cells. Pairs have their cells in one word.
+constexpr std::size_t kStripsAtOnce = 4;
+static_assert(kStripsAtOnce % 2 == 0);
 
 /// Of one row: strip by strip the windows of level 0, then those of level 1, and so on.
 using WindowRow = const Word*;
+
+/// How far away, in columns or rows, the cell of a centre is from p's: (2) of the header.
+constexpr int kCentre = kRadius + 1;
+
+/// Rows from this cell's -> how far to either side cells lie in every disk of radius kRadius with its centre
+/// in this cell: (2) of the header.
+constexpr auto make_core() {
+  std::array<int, kRadius> half_widths{};
+  for (int row = 0; row < kRadius; ++row) {
+    int& half_width = half_widths[static_cast<std::size_t>(row)];
+    half_width = -1;
+    for (int column = 0; column < kRadius; ++column) {
+      const double x = column + 1 + Grid::kSlack;
+      const double y = row + 1 + Grid::kSlack;
+      if (x * x + y * y + kExtra < kRadius * kRadius) half_width = column;
+    }
+  }
+  return half_widths;
+}
+constexpr auto kCore = make_core();
+constexpr int kCoreRows = [] {
+  int rows = 0;
+  for (const int half_width : kCore) rows += half_width >= 0 ? 1 : 0;
+  return rows - 1;  // to either side
+}();
+static_assert(kCentre + kCoreRows <= kReach);
+static_assert(kCentre + kCore[0] < kSide);
+
+/// The columns of a strip and kCentre more on either side.
+constexpr Word kStripAndSides = (Word{1} << (kStrip + 2 * kCentre)) - 1;
 
 /// Of one row: sector by sector which cells cover it.
 using SectorRow = SectorCover<kRadius>::Row;
@@ -128,6 +161,29 @@ template <std::size_t kSector, std::size_t... kRow>
                                                 std::index_sequence<kRow...> /*rows*/) {
   for (std::size_t strip = begin; strip < end; ++strip) {
     certified[strip] &= (any_in_run<kSector, kRow>(rows[kRow], strips, strip) | ...);
+  }
+}
+
+/// Which columns of a window, from kCentre to the left of the strip on, have an occupied cell in the row kRow
+/// of the core, counted from kCoreRows below on.
+template <std::size_t kRow>
+[[gnu::always_inline]] inline Word any_in_core(WindowRow row, std::size_t strips, std::size_t strip) {
+  constexpr int kFromMiddle = static_cast<int>(kRow) - kCoreRows;
+  constexpr int kHalfWidth = kCore[static_cast<std::size_t>(kFromMiddle < 0 ? -kFromMiddle : kFromMiddle)];
+  constexpr unsigned kLength = 2 * kHalfWidth + 1;
+  constexpr unsigned kLevel = std::bit_width(kLength) - 1;
+  static_assert(kLevel < kLevels);
+  const Word window = row[kLevel * strips + strip];
+  const Word any = window >> static_cast<unsigned>(kSide - kCentre - kHalfWidth);
+  return any | window >> static_cast<unsigned>(kSide - kCentre + kHalfWidth + 1 - (1 << kLevel));
+}
+
+/// Which of a strip and kCentre columns on either side are cells with an empty core.
+template <std::size_t... kRow>
+[[gnu::always_inline]] inline void find_empty_cores(const WindowRow* rows, std::size_t strips, Word* empty,
+                                                    std::index_sequence<kRow...> /*rows*/) {
+  for (std::size_t strip = 0; strip < strips; ++strip) {
+    empty[strip] = ~(any_in_core<kRow>(rows[kRow], strips, strip) | ...) & kStripAndSides;
   }
 }
 
@@ -168,8 +224,14 @@ template <std::size_t... kRow>
   return static_cast<Directions>(open);
 }
 
+/// Where the core's lowest row is among `rows`.
+[[gnu::always_inline]] inline void find_empty_cores(const WindowRow* rows, std::size_t strips, Word* empty) {
+  find_empty_cores(rows, strips, empty, std::make_index_sequence<2 * kCoreRows + 1>());
+}
+
 /// The loops that the time goes into.
 struct Loops {
+  void (*find_empty_cores)(const WindowRow* rows, std::size_t strips, Word* empty);
   void (*check_cells)(const WindowRow* rows, std::size_t strips, std::size_t begin, std::size_t end,
                       Word* certified);
   bool (*check_point)(const SectorRow* rows, const std::uint32_t* cells);
@@ -177,6 +239,9 @@ struct Loops {
 };
 
 // The same code three times, for what the compiler makes of it with wider registers.
+void find_empty_cores_portably(const WindowRow* rows, std::size_t strips, Word* empty) {
+  find_empty_cores(rows, strips, empty);
+}
 void check_cells_portably(const WindowRow* rows, std::size_t strips, std::size_t begin, std::size_t end,
                           Word* certified) {
   check_sectors(rows, strips, begin, end, certified, std::make_index_sequence<kCellSectors>());
@@ -188,6 +253,9 @@ Directions find_open_portably(const SectorRow* rows, const std::uint32_t* cells)
   return find_open(rows, cells);
 }
 #ifdef POLYLIDAR_X86_KERNELS
+POLYLIDAR_AVX2 void find_empty_cores_with_avx2(const WindowRow* rows, std::size_t strips, Word* empty) {
+  find_empty_cores(rows, strips, empty);
+}
 POLYLIDAR_AVX2 void check_cells_with_avx2(const WindowRow* rows, std::size_t strips, std::size_t begin,
                                           std::size_t end, Word* certified) {
   check_sectors(rows, strips, begin, end, certified, std::make_index_sequence<kCellSectors>());
@@ -197,6 +265,9 @@ POLYLIDAR_AVX2 bool check_point_with_avx2(const SectorRow* rows, const std::uint
 }
 POLYLIDAR_AVX2 Directions find_open_with_avx2(const SectorRow* rows, const std::uint32_t* cells) {
   return find_open(rows, cells);
+}
+POLYLIDAR_AVX512 void find_empty_cores_with_avx512(const WindowRow* rows, std::size_t strips, Word* empty) {
+  find_empty_cores(rows, strips, empty);
 }
 POLYLIDAR_AVX512 void check_cells_with_avx512(const WindowRow* rows, std::size_t strips, std::size_t begin,
                                               std::size_t end, Word* certified) {
@@ -213,11 +284,14 @@ POLYLIDAR_AVX512 Directions find_open_with_avx512(const SectorRow* rows, const s
 Loops loops_of(Kernel kernel) {
 #ifdef POLYLIDAR_X86_KERNELS
   if (kernel == Kernel::kAvx512)
-    return {&check_cells_with_avx512, &check_point_with_avx512, &find_open_with_avx512};
-  if (kernel == Kernel::kAvx2) return {&check_cells_with_avx2, &check_point_with_avx2, &find_open_with_avx2};
+    return {&find_empty_cores_with_avx512, &check_cells_with_avx512, &check_point_with_avx512,
+            &find_open_with_avx512};
+  if (kernel == Kernel::kAvx2)
+    return {&find_empty_cores_with_avx2, &check_cells_with_avx2, &check_point_with_avx2,
+            &find_open_with_avx2};
 #endif
   static_cast<void>(kernel);
-  return {&check_cells_portably, &check_point_portably, &find_open_portably};
+  return {&find_empty_cores_portably, &check_cells_portably, &check_point_portably, &find_open_portably};
 }
 
 /// Fills a WindowRow from a row of the bitmap. Column 0 is bit 64 of that.
@@ -264,11 +338,15 @@ void find_uncertain_cells(const Grid& grid, const Bitmap& occupied, Grid::Cell b
                           Bitmap& uncertain, Kernel kernel) {
   const Loops loops = loops_of(kernel);
   const std::size_t strips = (grid.columns() + kStrip - 1) / kStrip;
-  // The windows of the last kRows rows, and those that are certified in the row in the middle.
-  std::vector<Word> memory((kLevels * kRows + 1) * strips);
+  // The windows of the last kRows rows, those that are certified in the row in the middle, and empty cores.
+  std::vector<Word> memory((kLevels * kRows + 2) * strips);
   Word* const certified = &memory[kLevels * kRows * strips];
+  Word* const empty = certified + strips;
   std::array<Word*, kRows> rows;
   for (std::size_t r = 0; r < kRows; ++r) rows[r] = &memory[r * kLevels * strips];
+  // Strip -> one past the last row, from kCentre below `begin` on, where it or a cell near it has an empty
+  // core.
+  std::vector<Grid::Cell> empty_until(strips);
 
   const Word* next = occupied.words() + grid.first_word(begin) - std::size_t{grid.row_words()} * kReach;
   for (std::size_t r = 0; r + 1 < kRows; ++r, next += grid.row_words())
@@ -277,23 +355,34 @@ void find_uncertain_cells(const Grid& grid, const Bitmap& occupied, Grid::Cell b
     std::rotate(rows.begin(), rows.begin() + 1, rows.end());
     fill_windows(next, strips, rows.back());
 
-    std::size_t first = strips;
-    std::size_t last = 0;
+    // Of the rows at most kCentre away from this one, all but the last have been looked at for the row
+    // before.
+    for (std::size_t r = row == begin ? 0 : 2 * kCentre; r <= 2 * kCentre; ++r) {
+      loops.find_empty_cores(&rows[kReach - kCentre - kCoreRows + r], strips, empty);
+      for (std::size_t strip = 0; strip < strips; ++strip) {
+        if (empty[strip] != 0) empty_until[strip] = row - begin + r + 1;
+      }
+    }
     for (std::size_t strip = 0; strip < strips; ++strip) {
       certified[strip] = rows[kReach][strip] >> static_cast<unsigned>(kSide) & 0xFFFFFFFFU;
-      if (certified[strip] == 0) continue;
-      first = std::min(first, strip);
-      last = strip + 1;
     }
-    if (first >= last) continue;
-    loops.check_cells(rows.data(), strips, first, last, certified);
+    const auto is_open = [&](std::size_t strip) {
+      return certified[strip] != 0 && empty_until[strip] > row - begin;
+    };
     const std::size_t word = grid.first_word(row) + 1;
-    for (std::size_t strip = first; strip < last; ++strip) {
-      uncertain.words()[word + strip / 2] |= certified[strip] << (strip % 2 * kStrip);
-    }
-    // What is marked so far is certified; what is occupied and not certified is uncertain.
-    for (std::size_t w = word + first / 2; w <= word + (last - 1) / 2; ++w) {
-      uncertain.words()[w] = occupied.words()[w] & ~uncertain.words()[w];
+    for (std::size_t first = 0; first < strips; first += kStripsAtOnce) {
+      const std::size_t last = std::min(first + kStripsAtOnce, strips);
+      bool is_any_open = false;
+      for (std::size_t strip = first; strip < last; ++strip) is_any_open |= is_open(strip);
+      if (!is_any_open) continue;
+      loops.check_cells(rows.data(), strips, first, last, certified);
+      for (std::size_t strip = first; strip < last; ++strip) {
+        uncertain.words()[word + strip / 2] |= certified[strip] << (strip % 2 * kStrip);
+      }
+      // What is marked so far is certified; what is occupied and not certified is uncertain.
+      for (std::size_t w = word + first / 2; w <= word + (last - 1) / 2; ++w) {
+        uncertain.words()[w] = occupied.words()[w] & ~uncertain.words()[w];
+      }
     }
   }
 }

@@ -114,9 +114,14 @@ class Bitmap {
   }
   /// As set(), but several threads may call it at once.
   void set_shared(Grid::Cell cell) {
-    const Word bit = Word{1} << (cell % Grid::kWordBits);
-    Word* const word = &words_[cell / Grid::kWordBits];
-    if ((__atomic_load_n(word, __ATOMIC_RELAXED) & bit) == 0) __atomic_fetch_or(word, bit, __ATOMIC_RELAXED);
+    set_bits_shared(cell / Grid::kWordBits, Word{1} << (cell % Grid::kWordBits));
+  }
+  /// Sets the bits of a word.
+  void set_bits(std::size_t word, Word bits) { words_[word] |= bits; }
+  /// The same, but several threads may call it at once.
+  void set_bits_shared(std::size_t word, Word bits) {
+    if ((bits & ~__atomic_load_n(&words_[word], __ATOMIC_RELAXED)) == 0) return;
+    __atomic_fetch_or(&words_[word], bits, __ATOMIC_RELAXED);
   }
   void set(Grid::Cell cell) { words_[cell / Grid::kWordBits] |= Word{1} << (cell % Grid::kWordBits); }
   /// Those of `count` cells.

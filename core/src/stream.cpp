@@ -354,19 +354,34 @@ void Stream::choose_grid(double widest) {
 
 void Stream::find_occupied_cells() {
   occupied_.emplace().clear(grid_.word_count(), pool_);
-  const auto run_with = [&](const auto& set) {
-    const auto take = [&](Slot&, const CellBlock& block) {
-      for (std::size_t i = 0; i < block.points.size(); ++i) {
-        if (block.has(i)) occupied_->prefetch(block.cells[i]);  // many wait for memory at the same time
-      }
-      for (std::size_t i = 0; i < block.points.size(); ++i) {
-        if (block.has(i)) set(block.cells[i]);
+  const bool is_alone = pool_.threads() == 1;
+  const auto take = [&](Slot&, const CellBlock& block) {
+    for (std::size_t i = 0; i < block.points.size(); ++i) {
+      if (block.has(i)) occupied_->prefetch(block.cells[i]);  // many wait for memory at the same time
+    }
+    // Points of a scan line are in one word for a while, and a change that all threads see takes its time.
+    std::size_t word = 0;
+    Bitmap::Word bits = 0;
+    const auto set_bits = [&] {
+      if (is_alone) {
+        occupied_->set_bits(word, bits);
+      } else {
+        occupied_->set_bits_shared(word, bits);
       }
     };
-    run_over_cells(seen_, take, [](std::size_t) {});
+    for (std::size_t i = 0; i < block.points.size(); ++i) {
+      if (!block.has(i)) continue;
+      const Grid::Cell cell = block.cells[i];
+      if (cell / Grid::kWordBits != word) {
+        set_bits();
+        word = cell / Grid::kWordBits;
+        bits = 0;
+      }
+      bits |= Bitmap::Word{1} << (cell % Grid::kWordBits);
+    }
+    set_bits();
   };
-  if (pool_.threads() == 1) return run_with([&](Grid::Cell cell) { occupied_->set(cell); });
-  run_with([&](Grid::Cell cell) { occupied_->set_shared(cell); });
+  run_over_cells(seen_, take, [](std::size_t) {});
 }
 
 void Stream::find_uncertain_points() {

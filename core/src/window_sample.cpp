@@ -27,6 +27,9 @@ constexpr std::size_t kPointsForWindow = 1120;
 constexpr std::size_t kFewestWindows = 7;
 /// Half the side of a window in spacings of the points.
 constexpr double kHalfInner = 4;
+/// The margin of a window of which only the usual size is asked: of points at random, 1 triangle in 150 has a
+/// wider circle.
+constexpr double kNarrowMargin = 1.5;
 /// Beyond so many times what they would have where the density is the same everywhere, windows are not looked
 /// into.
 constexpr double kMostPointsOfUsual = 2;
@@ -238,7 +241,8 @@ double WindowSample::place_window_of_each(const WantedPlaces& wanted) {
     // In cells, from the place's corner on.
     const std::uint32_t side = cells.side;
     const double spacing = 1 / std::sqrt(counts_[cells.typical]);
-    const double half_side = std::min((kHalfInner + wanted.margin) * spacing, side / 2.0);
+    const double margin = w % kept_step() == 0 ? wanted.margin : std::min(kNarrowMargin, wanted.margin);
+    const double half_side = std::min((kHalfInner + margin) * spacing, side / 2.0);
     const auto middle_of = [&](std::uint32_t cell, std::uint32_t first) {
       return std::clamp(cell - first + 0.5, half_side, side - half_side);
     };
@@ -248,7 +252,7 @@ double WindowSample::place_window_of_each(const WantedPlaces& wanted) {
     window.centre = {minimum_.x + (cells.column + x) / cells_per_length_,
                      minimum_.y + (cells.row + y) / cells_per_length_};
     window.half_side = half_side / cells_per_length_;
-    window.half_inner = window.half_side * kHalfInner / (kHalfInner + wanted.margin);
+    window.half_inner = window.half_side * kHalfInner / (kHalfInner + margin);
     const auto first_of = [&](double at) { return static_cast<std::uint32_t>(at - half_side); };
     const auto last_of = [&](double at) {
       return std::min(static_cast<std::uint32_t>(at + half_side), side - 1);

@@ -58,8 +58,8 @@ class WindowSample {
 
   /// The settings of look_by_places().
   struct WantedPlaces {
-    double margin;            ///< of a window, in spacings of the points of its place
-    double quantile;          ///< of a window's sizes, which is its usual one
+    double margin;    ///< of a window whose triangles are kept, in spacings of the points of its place
+    double quantile;  ///< of a window's sizes, which is its usual one
     double points_in_circle;  ///< of a triangle that counts as wide, where the points are densest
   };
 
