@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -94,8 +93,6 @@ void make_shapes(const PointFile& file, std::uint8_t choice) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   constexpr std::size_t kChoices = 3;
   if (size < kChoices) return 0;
-  // No program is to be started for what looks like LAZ.
-  ::setenv("PATH", "", 1);
   PointFileOptions options;
   options.format = *point_format_of(fuzz::kFuzzedFormat);
   options.by = kBy[data[0] % kBy.size()];
