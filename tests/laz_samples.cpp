@@ -113,7 +113,10 @@ class Samples {
       if (sample_ == LazSample::kScan && below(3) == 0) f.channel = below(4);
       // Beams that alternate have times of their own.
       double& time = times_[below(50) == 0 ? below(4) : f.channel];
-      time += 1e-5 * (below(20) == 0 ? around(300) : 1) + (below(3) == 0 ? 1e-9 * around(100) : 0);
+      // At times the pulses get slower or faster, or go back.
+      constexpr std::array<double, 6> kSteps = {1e-5, 1e-9, 1e-2, -1e-5, -3e-4, 2e-6};
+      if (below(60) == 0) step_ = kSteps[below(kSteps.size())];
+      time += step_ * (below(20) == 0 ? around(300) : 1) + (below(3) == 0 ? 1e-9 * around(100) : 0);
       if (below(1000) == 0) time += 1e4;
       f.time = below(15) == 0 ? f.time : time;
       if (below(10) == 0) f.angle = around(90);
@@ -136,6 +139,7 @@ class Samples {
   LazSample sample_;
   std::mt19937 random_;
   Fields fields_;
+  double step_ = 1e-5;
   std::array<double, 4> times_ = {100'000, 200'000, 3e8, 5};
 };
 

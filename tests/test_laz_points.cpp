@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -242,6 +243,39 @@ TEST_F(LazPointsTest, FilesThatLieAreRefused) {
     // The first chunk has fewer points than are promised.
     const std::size_t record = laz.find("laszip encoded") - 2 + 54;
     expect_refusal(changed(record + 12, bytes_of(std::uint32_t{1'000'000})), "points 1 to 3000 are damaged");
+  }
+}
+
+// Layers that nobody asked for are passed over, whatever they hold.
+TEST_F(LazPointsTest, LayersThatEndTooEarlyAreRefused) {
+  constexpr std::size_t kRecord = 30;
+  constexpr std::size_t kLayers = 9;
+  constexpr std::size_t kLeft = 50;
+  const std::string laz = compressed(las_sample(LazSample::kScan, 6, 0, 3000, 5));
+  const PointFileOptions by_source = {.by = "point_source"};
+  const std::size_t sizes = points_at(laz) + 8 + kRecord + 4;
+  std::size_t begin = sizes + 4 * kLayers;
+  for (std::size_t layer = 0; layer < kLayers; ++layer) {
+    std::uint32_t size = 0;
+    std::uint64_t table_at = 0;
+    std::memcpy(&size, &laz[sizes + 4 * layer], sizeof size);
+    std::memcpy(&table_at, &laz[points_at(laz)], sizeof table_at);
+    ASSERT_GT(size, kLeft);
+    std::string bad = laz;
+    bad.replace(sizes + 4 * layer, 4, bytes_of(std::uint32_t{kLeft}));
+    bad.erase(begin + kLeft, size - kLeft);
+    bad.insert(table_at - (size - kLeft), size - kLeft, '\0');
+    begin += size;
+    if (layer == 0 || layer == 2 || layer == 3) {
+      expect_refusal(bad, "its compressed points 1 to 3000 are damaged");
+    } else {
+      EXPECT_EQ(read(bad).points, read(laz).points) << layer;
+    }
+    const auto with_source = [&] {
+      EXPECT_EQ(read(bad, by_source).groups, read(laz, by_source).groups) << layer;
+    };
+    if (layer == 7) expect_complaint<PointFileError>(with_source, "are damaged");
+    if (layer == 8) with_source();
   }
 }
 

@@ -152,15 +152,15 @@ class PlaceDecoder {
   std::vector<Medians> medians_;
 };
 
-/// Passes over the times of formats 0 to 3. There are four sequences of times, as of beams that alternate,
-/// each with the last step, of which a step is a multiple.
+/// Passes over the times of formats 0 to 3. There are four sequences of times, as of beams that alternate. A
+/// step is a multiple of an earlier one of its sequence; how long they are does not matter here.
 class TimeSkipper {
  public:
   void reset() {
-    same_step_.reset();
+    first_step_.reset();
     multiple_.reset();
     numbers_.reset();
-    sequences_ = {};
+    has_step_ = {};
     current_ = newest_ = 0;
   }
 
@@ -170,68 +170,50 @@ class TimeSkipper {
   }
 
  private:
-  static constexpr unsigned kMostMultiple = 500;
-  static constexpr unsigned kLeastMultiple = kMostMultiple + 10;  // -10; those between are -1 to -9
+  static constexpr unsigned kMostMultiple = 500;                  ///< or more; 0 to 499 are as they are
+  static constexpr unsigned kLeastMultiple = kMostMultiple + 10;  ///< -10 or less; those between are -1 to -9
   static constexpr unsigned kSame = kLeastMultiple + 1;
   static constexpr unsigned kFarAway = kSame + 1;
 
-  struct Sequence {
-    std::uint32_t step = 0;
-    unsigned extremes = 0;  ///< steps, one after the other, that were no usual multiple
-  };
-
   /// Whether the next time is that of another sequence, which then is the current one.
   bool is_elsewhere(ArithmeticDecoder& decoder) {
-    Sequence& sequence = sequences_[current_];
-    if (sequence.step == 0) {
+    if (!has_step_[current_]) {
       constexpr unsigned kFirstFarAway = 2;
-      const unsigned kind = decoder.symbol(same_step_);
-      if (kind == 1) sequence = {numbers_.correction(decoder, 0), 0};
-      return kind >= kFirstFarAway && is_far_away(decoder, kind - kFirstFarAway);
+      const unsigned kind = decoder.symbol(first_step_);
+      if (kind >= kFirstFarAway) return is_far_away(decoder, kind - kFirstFarAway);
+      has_step_[current_] = kind == 1 && numbers_.correction(decoder, 0) != 0;
+      return false;
     }
     const unsigned multiple = decoder.symbol(multiple_);
     if (multiple >= kFarAway) return is_far_away(decoder, multiple - kFarAway);
-    if (multiple != kSame) take_step(decoder, sequence, multiple);
+    // No encoder writes a step of 0 as a multiple, so there is one from now on.
+    if (multiple != kSame) numbers_.correction(decoder, context_of(multiple));
     return false;
   }
 
   /// So many sequences further, or a new sequence if that is 0.
   bool is_far_away(ArithmeticDecoder& decoder, unsigned further) {
-    current_ = (current_ + further) % sequences_.size();
+    current_ = (current_ + further) % has_step_.size();
     if (further > 0) return true;
-    current_ = newest_ = (newest_ + 1) % sequences_.size();
-    sequences_[current_] = {};
+    current_ = newest_ = (newest_ + 1) % has_step_.size();
+    has_step_[current_] = false;
     numbers_.correction(decoder, 8);  // the upper half of the time
     decoder.bits(32);
     return false;
   }
 
-  void take_step(ArithmeticDecoder& decoder, Sequence& sequence, unsigned multiple) {
-    if (multiple == 1) {
-      numbers_.correction(decoder, 1);
-      sequence.extremes = 0;
-    } else if (multiple == 0) {
-      take_extreme(sequence, numbers_.correction(decoder, 7));
-    } else if (multiple < kMostMultiple) {
-      numbers_.correction(decoder, multiple < 10 ? 2 : 3);
-    } else if (multiple == kMostMultiple) {
-      take_extreme(sequence, numbers_.number(decoder, kMostMultiple * sequence.step, 4));
-    } else if (multiple < kLeastMultiple) {
-      numbers_.correction(decoder, 5);
-    } else {
-      take_extreme(sequence, numbers_.number(decoder, -10U * sequence.step, 6));
-    }
+  static unsigned context_of(unsigned multiple) {
+    if (multiple == 0) return 7;
+    if (multiple == 1) return 1;
+    if (multiple < kMostMultiple) return multiple < 10 ? 2 : 3;
+    if (multiple == kMostMultiple) return 4;
+    return multiple < kLeastMultiple ? 5 : 6;
   }
 
-  static void take_extreme(Sequence& sequence, std::uint32_t step) {
-    constexpr unsigned kMostExtremes = 3;
-    if (++sequence.extremes > kMostExtremes) sequence = {step, 0};
-  }
-
-  SymbolModel same_step_{6};
+  SymbolModel first_step_{6};
   SymbolModel multiple_{kFarAway + 4};
   IntegerDecoder numbers_{32, 9};
-  std::array<Sequence, 4> sequences_{};
+  std::array<bool, 4> has_step_{};  ///< of each sequence, whether it has a step that is not 0
   std::size_t current_ = 0;
   std::size_t newest_ = 0;
 };
@@ -350,7 +332,7 @@ class LayeredDecoder : public ChunkDecoder {
   bool start(Bytes bytes, std::uint64_t count) override {
     const std::size_t record_size = layout_.record_size();
     const std::size_t layers =
-        kExtra + (layout_.has_colour ? 1 : 0) + (layout_.has_infrared ? 1 : 0) + layout_.extra_bytes;
+        kLayerCount + (layout_.has_colour ? 1 : 0) + (layout_.has_infrared ? 1 : 0) + layout_.extra_bytes;
     const std::size_t fixed_size = record_size + 4 + 4 * layers;
     if (bytes.size() < fixed_size || number_at(&bytes[record_size], 4) < count) return false;
     is_first_ = true;
@@ -363,14 +345,14 @@ class LayeredDecoder : public ChunkDecoder {
                    (flags & 15U) | (flags >> 6U) << 4U, bytes[kClassAt], number_at(&bytes[kSourceAt6], 2)});
     Bytes sizes = bytes.subspan(record_size + 4);
     Bytes rest = bytes.subspan(fixed_size);
-    for (std::size_t layer = 0; layer < kExtra; ++layer) {
+    for (std::size_t layer = 0; layer < kLayerCount; ++layer) {
       const std::size_t size = number_at(&sizes[4 * layer], 4);
       if (size > rest.size()) return false;
       layers_[layer].start(rest.first(size));
       has_layer_[layer] = size > 0;
       rest = rest.subspan(size);
     }
-    has_layer_[kSource] &= layout_.wants_source;
+    has_layer_[kSourceLayer] &= layout_.wants_source;
     return true;
   }
 
@@ -394,16 +376,16 @@ class LayeredDecoder : public ChunkDecoder {
  private:
   /// In the order of the file. Behind them are those of colour, infrared and extra bytes.
   enum Layer : std::size_t {
-    kPlace,  ///< with scanner channel and returns, and what of the other layers changes
-    kHeight,
-    kClass,
-    kFlags,
-    kIntensity,
-    kScanAngle,
-    kUserData,
-    kSource,
-    kTime,
-    kExtra
+    kPlaceLayer,  ///< with scanner channel and returns, and what of the other layers changes
+    kHeightLayer,
+    kClassLayer,
+    kFlagsLayer,
+    kIntensityLayer,
+    kScanAngleLayer,
+    kUserDataLayer,
+    kSourceLayer,
+    kTimeLayer,
+    kLayerCount
   };
 
   struct LastPoint {
@@ -440,7 +422,6 @@ class LayeredDecoder : public ChunkDecoder {
     Channel& channel = channels_[channel_];
     channel.is_used = true;
     channel.last = last;
-    channel.last.has_new_time = false;
     reset(channel.changes);
     channel.next_channel.reset();
     reset(channel.returns);
@@ -453,7 +434,7 @@ class LayeredDecoder : public ChunkDecoder {
   }
 
   void unpack_next() {
-    ArithmeticDecoder& decoder = layers_[kPlace];
+    ArithmeticDecoder& decoder = layers_[kPlaceLayer];
     const unsigned changes = change_channel(decoder);
     Channel& channel = channels_[channel_];
     LastPoint& last = channel.last;
@@ -475,14 +456,14 @@ class LayeredDecoder : public ChunkDecoder {
     }
     const std::size_t context = kReturnContext6[last.returns][last.number] * 2U + (has_new_time ? 1U : 0U);
     channel.places.next(decoder, context, last.returns == 1, last.x, last.y);
-    if (has_layer_[kClass]) {
+    if (has_layer_[kClassLayer]) {
       const unsigned is_single = last.kind() == 3 ? 1 : 0;
       last.classification =
-          layers_[kClass].symbol(channel.classes[(last.classification % 32) * 2 + is_single]);
+          layers_[kClassLayer].symbol(channel.classes[(last.classification % 32) * 2 + is_single]);
     }
-    if (has_layer_[kFlags]) last.flags = layers_[kFlags].symbol(channel.flags[last.flags]);
-    if (has_layer_[kSource] && (changes & 32U) != 0) {
-      last.source = channel.sources.number(layers_[kSource], last.source, 0);
+    if (has_layer_[kFlagsLayer]) last.flags = layers_[kFlagsLayer].symbol(channel.flags[last.flags]);
+    if (has_layer_[kSourceLayer] && (changes & 32U) != 0) {
+      last.source = channel.sources.number(layers_[kSourceLayer], last.source, 0);
     }
     last.has_new_time = has_new_time;
   }
@@ -500,7 +481,8 @@ class LayeredDecoder : public ChunkDecoder {
 
   bool is_broken() const {
     const auto is_broken = [&](Layer layer) { return has_layer_[layer] && layers_[layer].is_broken(); };
-    return layers_[kPlace].is_broken() || is_broken(kClass) || is_broken(kFlags) || is_broken(kSource);
+    return layers_[kPlaceLayer].is_broken() || is_broken(kClassLayer) || is_broken(kFlagsLayer) ||
+           is_broken(kSourceLayer);
   }
 
   LazRecordLayout layout_;
@@ -508,8 +490,8 @@ class LayeredDecoder : public ChunkDecoder {
   bool is_alone_ = false;  ///< Such a chunk need not have more than its point.
   std::size_t channel_ = 0;
   std::array<Channel, 4> channels_;
-  std::array<ArithmeticDecoder, kExtra> layers_;
-  std::array<bool, kExtra> has_layer_{};
+  std::array<ArithmeticDecoder, kLayerCount> layers_;
+  std::array<bool, kLayerCount> has_layer_{};
 };
 
 }  // namespace

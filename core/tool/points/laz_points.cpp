@@ -21,19 +21,23 @@ constexpr std::size_t kChunkSize = 12;
 constexpr std::size_t kItemCount = 32;
 constexpr std::size_t kItems = 34;  // each a kind, bytes and a version of 2 bytes
 
-enum Compressor : std::uint64_t { kPointwise = 1, kPointwiseChunked = 2, kLayered = 3 };
+enum Compressor : std::uint64_t {
+  kPointwiseCompressor = 1,
+  kPointwiseChunkedCompressor = 2,
+  kLayeredCompressor = 3
+};
 
 enum ItemKind : std::uint64_t {
-  kBytes = 0,
-  kPoint10 = 6,
-  kTime = 7,
-  kColour = 8,
-  kWaves13 = 9,
-  kPoint14 = 10,
-  kColour14 = 11,
-  kInfrared14 = 12,
-  kWaves14 = 13,
-  kBytes14 = 14
+  kBytesItem = 0,
+  kPoint10Item = 6,
+  kTimeItem = 7,
+  kColourItem = 8,
+  kWaves13Item = 9,
+  kPoint14Item = 10,
+  kColour14Item = 11,
+  kInfrared14Item = 12,
+  kWaves14Item = 13,
+  kBytes14Item = 14
 };
 
 struct Item {
@@ -77,12 +81,12 @@ LazRecordLayout layout_of(unsigned format, bool wants_source) {
 
 /// The kinds of items that points of this layout have, in their order.
 std::vector<std::uint64_t> kinds_of(const LazRecordLayout& layout) {
-  std::vector<std::uint64_t> kinds = {layout.is_layered ? kPoint14 : kPoint10};
-  if (layout.has_time) kinds.push_back(kTime);
+  std::vector<std::uint64_t> kinds = {layout.is_layered ? kPoint14Item : kPoint10Item};
+  if (layout.has_time) kinds.push_back(kTimeItem);
   if (layout.has_colour) {
-    kinds.push_back(!layout.is_layered ? kColour : layout.has_infrared ? kInfrared14 : kColour14);
+    kinds.push_back(!layout.is_layered ? kColourItem : layout.has_infrared ? kInfrared14Item : kColour14Item);
   }
-  if (layout.extra_bytes > 0) kinds.push_back(layout.is_layered ? kBytes14 : kBytes);
+  if (layout.extra_bytes > 0) kinds.push_back(layout.is_layered ? kBytes14Item : kBytesItem);
   return kinds;
 }
 
@@ -112,13 +116,14 @@ void LazPoints::find_layout(const LazHeader& header, std::string_view record, bo
   }
   const std::vector<Item> items = items_of(record);
   const bool has_waves = std::any_of(items.begin(), items.end(), [](const Item& item) {
-    return item.kind == kWaves13 || item.kind == kWaves14;
+    return item.kind == kWaves13Item || item.kind == kWaves14Item;
   });
   if (has_waves || header.format == 4 || header.format == 5 || header.format > 8) {
     reader_.fail("it is a LAZ file with waveforms, which are not unpacked here" + std::string(kConvert));
   }
   const std::uint64_t compressor = number_in(record, kCompressor, 2);
-  if (compressor < kPointwise || compressor > kLayered || number_in(record, kCoder, 2) != 0) {
+  if (compressor < kPointwiseCompressor || compressor > kLayeredCompressor ||
+      number_in(record, kCoder, 2) != 0) {
     reader_.fail("it is a LAZ file with compressor " + std::to_string(compressor) + " and coder " +
                  std::to_string(number_in(record, kCoder, 2)) + ", and 1 to 3 with coder 0 are known" +
                  kConvert);
@@ -131,7 +136,7 @@ void LazPoints::find_layout(const LazHeader& header, std::string_view record, bo
   const bool is_known = std::equal(items.begin(), items.end(), kinds.begin(), kinds.end(),
                                    [](const Item& item, std::uint64_t kind) { return item.kind == kind; });
   if (!is_known || size != header.point_size || layout_.record_size() != header.point_size ||
-      layout_.is_layered != (compressor == kLayered)) {
+      layout_.is_layered != (compressor == kLayeredCompressor)) {
     reader_.fail("it is a LAZ file whose record \"laszip encoded\" does not fit point format " +
                  std::to_string(header.format) + " with " + std::to_string(header.point_size) +
                  " bytes a point" + kConvert);
@@ -142,7 +147,7 @@ void LazPoints::find_layout(const LazHeader& header, std::string_view record, bo
     reader_.fail("it is a LAZ file with items of version " + std::to_string(item.version) + ", and " +
                  (layout_.is_layered ? "3 and 4 are" : "2 is") + " known for its point format" + kConvert);
   }
-  has_chunks_ = compressor != kPointwise;
+  has_chunks_ = compressor != kPointwiseCompressor;
   chunk_size_ = static_cast<std::uint32_t>(number_in(record, kChunkSize, 4));
   if (has_chunks_ && chunk_size_ == 0) {
     reader_.fail("it is a LAZ file with chunks of 0 points; write the file again");
