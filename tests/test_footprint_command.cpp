@@ -536,14 +536,14 @@ TEST_F(FootprintCommandTest, LazIsAsLas) {
   const std::string las = tile(2).text();
   const std::string unpacked = file("tile.las", las);
   const std::string laz = file("tile.laz", compressed(las, {.chunk_size = 700}));
-  const auto shape = [](const std::string& command, const std::string& path,
-                        const std::vector<std::string>& options) {
-    json feature = json::parse(succeeded(run_program(joined({POLYLIDAR, command, path}, options))).out);
-    feature["features"][0]["properties"].erase("file");
-    return feature;
+  const auto out = [](const std::string& command, const std::string& path,
+                      const std::vector<std::string>& options) {
+    std::string text = succeeded(run_program(joined({POLYLIDAR, command, path}, options))).out;
+    for (std::size_t at = 0; (at = text.find("tile.laz", at)) != std::string::npos;) text[at + 7] = 's';
+    return text;
   };
   const auto expect_same = [&](const std::string& command, const std::vector<std::string>& options) {
-    EXPECT_EQ(shape(command, laz, options), shape(command, unpacked, options)) << command;
+    EXPECT_EQ(out(command, laz, options), out(command, unpacked, options)) << command;
   };
   expect_same("footprint", {});
   expect_same("footprint", {"--union"});
