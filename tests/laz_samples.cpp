@@ -31,7 +31,8 @@ struct Fields {
 };
 
 std::string byte(unsigned value) {
-  return std::string(1, static_cast<char>(value));
+  std::string text(1, static_cast<char>(value));
+  return text;
 }
 
 std::string two_bytes(unsigned value) {

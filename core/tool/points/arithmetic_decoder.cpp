@@ -14,7 +14,7 @@ std::uint32_t longer(std::uint32_t cycle, std::uint32_t longest) {
 
 void SymbolModel::begin() {
   unsigned cell_bits = 3;
-  while (symbols_ > 1U << (cell_bits + 2)) ++cell_bits;
+  while (symbols_ > 1U << (cell_bits + 1)) ++cell_bits;
   cell_shift_ = kShift - cell_bits;
   starts_.resize(symbols_);
   counts_.assign(symbols_, 1);
