@@ -28,12 +28,15 @@ hullbench_test(test_tool_commands
 target_compile_definitions(test_tool_commands PRIVATE
   POLYLIDAR="$<TARGET_FILE:polylidar>" MISBEHAVING_WORKER="$<TARGET_FILE:misbehaving_worker>")
 add_dependencies(test_tool_commands misbehaving_worker polylidar)
-# Our LAZ encoder by the decoder of laz-perf, so that it and our own decoder cannot be wrong together.
+# Our LAZ encoder and decoder by the decoder of laz-perf, so that they cannot be wrong together.
 add_executable(write_laz_files write_laz_files.cpp)
 target_link_libraries(write_laz_files PRIVATE hullbench_laz_files hullbench::compile_options)
-set_target_properties(write_laz_files PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
+add_executable(print_laz_points print_laz_points.cpp)
+target_link_libraries(print_laz_points PRIVATE polylidar::tool hullbench::compile_options)
+set_target_properties(write_laz_files print_laz_points PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
 hullbench_tool_test(NAME hull.laz_perf NEEDS node "${CMAKE_CURRENT_LIST_DIR}/report/node_modules/laz-perf"
-  COMMAND ${CMAKE_COMMAND} -E env "WRITE_LAZ_FILES=$<TARGET_FILE:write_laz_files>" "OUTPUT=${CMAKE_BINARY_DIR}/tests/laz_files"
+  COMMAND ${CMAKE_COMMAND} -E env "WRITE_LAZ_FILES=$<TARGET_FILE:write_laz_files>"
+          "PRINT_LAZ_POINTS=$<TARGET_FILE:print_laz_points>" "OUTPUT=${CMAKE_BINARY_DIR}/tests/laz_files"
           node --test --test-reporter=spec "${CMAKE_CURRENT_LIST_DIR}/report/laz.test.mjs")
 set_tests_properties(hull.laz_perf PROPERTIES LABELS hull TIMEOUT 120)
 # With GDAL, where it is found: the program as a build with POLYLIDAR_WITH_GDAL has it.

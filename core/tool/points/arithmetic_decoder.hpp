@@ -12,7 +12,7 @@
 
 namespace polylidar::tool::point_files {
 
-/// How often each of up to 2^11 symbols came so far, as the encoder counted them too. Takes memory once it is
+/// How often each of up to 2^10 symbols came so far, as the encoder counted them too. Takes memory once it is
 /// used.
 class SymbolModel {
  public:
@@ -39,7 +39,7 @@ class SymbolModel {
   std::vector<std::uint16_t> starts_;  ///< symbol -> start of its interval in [0, 2^15), increasing
   std::vector<std::uint16_t> counts_;  ///< symbol -> how often it came, at least 1
   /// Cell of 2^cell_shift_ units -> the last symbol that starts before the cell; one more for the end, and
-  /// one as the last interval reaches a little beyond 2^15.
+  /// one as the last interval reaches up to 63 units, which is less than a cell, beyond 2^15.
   std::vector<std::uint16_t> cells_;
 };
 

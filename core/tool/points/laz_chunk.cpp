@@ -152,15 +152,15 @@ class PlaceDecoder {
   std::vector<Medians> medians_;
 };
 
-/// Passes over the times of formats 0 to 3. There are four sequences of times, as of beams that alternate. A
-/// step is a multiple of an earlier one of its sequence; how long they are does not matter here.
+/// Passes over the times of formats 0 to 3. There are four sequences of times, as of beams that alternate,
+/// each with the last step, of which a step is a multiple.
 class TimeSkipper {
  public:
   void reset() {
-    first_step_.reset();
+    same_step_.reset();
     multiple_.reset();
     numbers_.reset();
-    has_step_ = {};
+    sequences_ = {};
     current_ = newest_ = 0;
   }
 
@@ -170,50 +170,68 @@ class TimeSkipper {
   }
 
  private:
-  static constexpr unsigned kMostMultiple = 500;                  ///< or more; 0 to 499 are as they are
-  static constexpr unsigned kLeastMultiple = kMostMultiple + 10;  ///< -10 or less; those between are -1 to -9
+  static constexpr unsigned kMostMultiple = 500;
+  static constexpr unsigned kLeastMultiple = kMostMultiple + 10;  // -10; those between are -1 to -9
   static constexpr unsigned kSame = kLeastMultiple + 1;
   static constexpr unsigned kFarAway = kSame + 1;
 
+  struct Sequence {
+    std::uint32_t step = 0;
+    unsigned extremes = 0;  ///< steps, one after the other, that were no usual multiple
+  };
+
   /// Whether the next time is that of another sequence, which then is the current one.
   bool is_elsewhere(ArithmeticDecoder& decoder) {
-    if (!has_step_[current_]) {
+    Sequence& sequence = sequences_[current_];
+    if (sequence.step == 0) {
       constexpr unsigned kFirstFarAway = 2;
-      const unsigned kind = decoder.symbol(first_step_);
-      if (kind >= kFirstFarAway) return is_far_away(decoder, kind - kFirstFarAway);
-      has_step_[current_] = kind == 1 && numbers_.correction(decoder, 0) != 0;
-      return false;
+      const unsigned kind = decoder.symbol(same_step_);
+      if (kind == 1) sequence = {numbers_.correction(decoder, 0), 0};
+      return kind >= kFirstFarAway && is_far_away(decoder, kind - kFirstFarAway);
     }
     const unsigned multiple = decoder.symbol(multiple_);
     if (multiple >= kFarAway) return is_far_away(decoder, multiple - kFarAway);
-    // No encoder writes a step of 0 as a multiple, so there is one from now on.
-    if (multiple != kSame) numbers_.correction(decoder, context_of(multiple));
+    if (multiple != kSame) take_step(decoder, sequence, multiple);
     return false;
   }
 
   /// So many sequences further, or a new sequence if that is 0.
   bool is_far_away(ArithmeticDecoder& decoder, unsigned further) {
-    current_ = (current_ + further) % has_step_.size();
+    current_ = (current_ + further) % sequences_.size();
     if (further > 0) return true;
-    current_ = newest_ = (newest_ + 1) % has_step_.size();
-    has_step_[current_] = false;
+    current_ = newest_ = (newest_ + 1) % sequences_.size();
+    sequences_[current_] = {};
     numbers_.correction(decoder, 8);  // the upper half of the time
     decoder.bits(32);
     return false;
   }
 
-  static unsigned context_of(unsigned multiple) {
-    if (multiple == 0) return 7;
-    if (multiple == 1) return 1;
-    if (multiple < kMostMultiple) return multiple < 10 ? 2 : 3;
-    if (multiple == kMostMultiple) return 4;
-    return multiple < kLeastMultiple ? 5 : 6;
+  void take_step(ArithmeticDecoder& decoder, Sequence& sequence, unsigned multiple) {
+    if (multiple == 1) {
+      numbers_.correction(decoder, 1);
+      sequence.extremes = 0;
+    } else if (multiple == 0) {
+      take_extreme(sequence, numbers_.correction(decoder, 7));
+    } else if (multiple < kMostMultiple) {
+      numbers_.correction(decoder, multiple < 10 ? 2 : 3);
+    } else if (multiple == kMostMultiple) {
+      take_extreme(sequence, numbers_.number(decoder, kMostMultiple * sequence.step, 4));
+    } else if (multiple < kLeastMultiple) {
+      numbers_.correction(decoder, 5);
+    } else {
+      take_extreme(sequence, numbers_.number(decoder, -10U * sequence.step, 6));
+    }
   }
 
-  SymbolModel first_step_{6};
+  static void take_extreme(Sequence& sequence, std::uint32_t step) {
+    constexpr unsigned kMostExtremes = 3;
+    if (++sequence.extremes > kMostExtremes) sequence = {step, 0};
+  }
+
+  SymbolModel same_step_{6};
   SymbolModel multiple_{kFarAway + 4};
   IntegerDecoder numbers_{32, 9};
-  std::array<bool, 4> has_step_{};  ///< of each sequence, whether it has a step that is not 0
+  std::array<Sequence, 4> sequences_{};
   std::size_t current_ = 0;
   std::size_t newest_ = 0;
 };

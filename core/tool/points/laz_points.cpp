@@ -208,9 +208,8 @@ void LazPoints::read_table(std::uint64_t table_at, std::uint64_t chunks_at) {
   ArithmeticDecoder decoder;
   decoder.start(bytes_);
   IntegerDecoder numbers(32, 2);
-  std::uint32_t points = chunk_size_;
+  std::uint32_t points = chunk_size_ == kVariable ? 0 : chunk_size_;
   std::uint32_t size = 0;
-  if (chunk_size_ == kVariable) points = 0;
   std::uint64_t first_point = 0;
   std::uint64_t begin = chunks_at;
   for (std::uint64_t i = 0; i < count && first_point < count_; ++i) {
