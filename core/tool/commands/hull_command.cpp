@@ -232,7 +232,7 @@ void add_hull_options(CLI::App& app, HullCommand& command) {
       ".geojson\n"
       ".json .wkt .npy .ply .las .laz, also with .gz; .f64 and .raw are little-endian doubles x, y and "
       "nothing\n"
-      "else), else by its content. LAZ needs laszip or las2las in the PATH.\n"
+      "else), else by its content.\n"
       "Lengths are in the unit of the points, or in metres if these are longitudes and latitudes.\n" +
       std::string(kGdalHelp));
   app.add_option("FILE", command.inputs, "The points; - for standard input; several with --stream")

@@ -56,16 +56,6 @@ BlockReader::BlockReader(const std::string& path, const PointFileOptions& option
   }
 }
 
-BlockReader::BlockReader(int file, std::string name, const PointFileOptions& options)
-    : options_(options), name_(std::move(name)), file_(file) {
-  try {
-    start();
-  } catch (...) {
-    ::close(file_);
-    throw;
-  }
-}
-
 void BlockReader::start() {
   // A coordinate may have any bytes.
   const bool is_raw = options_.format == PointFormat::kRaw;
@@ -177,6 +167,20 @@ bool BlockReader::skip(std::uint64_t size) {
     if (part == 0) return false;
     position_ += part;
     size -= part;
+  }
+  return true;
+}
+
+bool BlockReader::read_at(std::uint64_t place, char* to, std::size_t size) {
+  for (std::size_t done = 0; done < size;) {
+    const ssize_t count =
+        ::pread(file_, to + done, std::min(size - done, kBlockBytes), static_cast<off_t>(place + done));
+    if (count < 0 && errno != EINTR) fail("it cannot be read: " + reason(errno));
+    if (count == 0) return false;
+    const auto given = static_cast<std::size_t>(std::max<ssize_t>(count, 0));
+    done += given;
+    taken_apart_ += given;
+    if (options_.on_progress) options_.on_progress(std::min(taken_ + taken_apart_, *size_), size_);
   }
   return true;
 }

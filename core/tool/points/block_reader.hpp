@@ -23,8 +23,6 @@ class BlockReader {
   /// Opens `path` ("-": standard input), unpacks what gzip compressed and passes over a byte order mark of
   /// UTF-8.
   BlockReader(const std::string& path, const PointFileOptions& options);
-  /// Reads what comes from the descriptor `file`, and closes it in the end; `name` is for messages.
-  BlockReader(int file, std::string name, const PointFileOptions& options);
   ~BlockReader();
   BlockReader(const BlockReader&) = delete;
   BlockReader& operator=(const BlockReader&) = delete;
@@ -52,6 +50,9 @@ class BlockReader {
   bool read(char* to, std::size_t size);
   /// Past the next `size` bytes; false when there are fewer.
   bool skip(std::uint64_t size);
+  /// The `size` bytes at `place` of a file whose remaining() is known, from wherever the reader is, which
+  /// stays there; false when there are fewer.
+  bool read_at(std::uint64_t place, char* to, std::size_t size);
 
   /// How many bytes follow; nothing when that is not known, as of a pipe.
   std::optional<std::uint64_t> remaining() const;
@@ -78,6 +79,7 @@ class BlockReader {
   std::size_t position_ = 0;        ///< in block_, of the next byte
   std::size_t end_ = 0;             ///< of what block_ holds
   std::uint64_t taken_ = 0;         ///< bytes that the system has given
+  std::uint64_t taken_apart_ = 0;   ///< bytes that read_at() has given
   std::uint64_t line_ = 0;
   bool at_line_end_ = true;
 };

@@ -6,6 +6,7 @@
 
 #include "tool/points/huge_pages.hpp"
 #include "tool/points/kept_points.hpp"
+#include "tool/points/laz_points.hpp"
 #include "tool/points/numbers.hpp"
 #include "tool/points/readers.hpp"
 
@@ -40,7 +41,7 @@ constexpr std::size_t kBytesAtOnce = std::size_t{1} << 18U;
 /// Point format -> the bytes that a point has at least.
 constexpr std::array<std::size_t, 11> kLeastPointSize = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
 
-/// LASzip sets the top bit of the point format.
+/// LASzip sets the top bit of the point format, or the one below.
 constexpr unsigned kCompressed = 0xC0;
 
 constexpr const char* kCopyAgain = "; it was cut short, so copy or save it again";
@@ -84,6 +85,7 @@ struct LasHeader {
   std::uint64_t points_at = 0;
   std::uint64_t records = 0;
   unsigned format = 0;
+  bool is_compressed = false;
   std::size_t point_size = 0;
   std::uint64_t count = 0;
   Lattice lattice;
@@ -173,12 +175,8 @@ class LasReader {
   }
 
   void read_format(unsigned format) {
-    if ((format & kCompressed) != 0) {
-      reader_.fail(
-          "it is a LAZ file; the program laszip or las2las of LAStools in the PATH unpacks one that has a "
-          "name; "
-          "or convert it, as in 'pdal translate in.laz out.las'");
-    }
+    header_.is_compressed = (format & kCompressed) != 0;
+    format &= ~kCompressed;
     header_.format = format;
     if (format >= kLeastPointSize.size() || header_.point_size < kLeastPointSize[format]) {
       refuse("says point format " + std::to_string(format) + " with " + std::to_string(header_.point_size) +
@@ -187,8 +185,9 @@ class LasReader {
     is_extended_format_ = format >= 6;
   }
 
-  /// The variable length records, of which only those with the coordinate system matter. Reading stops at a
-  /// record that reaches into the points; the points are still read.
+  /// The variable length records, of which only those with the coordinate system matter, and the one that
+  /// says how points are compressed. Reading stops at a record that reaches into the points; the points are
+  /// still read.
   void read_records() {
     skip_to(header_.size, "its header does");
     for (std::uint64_t r = 0; r < header_.records; ++r) {
@@ -224,14 +223,19 @@ class LasReader {
     constexpr std::uint64_t kGeoKeyTexts = 34737;
     constexpr std::uint64_t kLongest = std::uint64_t{1} << 20U;
     const std::uint64_t id = unsigned_at(start + 18, 2);
-    const bool is_projection = std::string_view(start + 2, 16).starts_with("LASF_Projection");
-    if (!is_projection || (id != kWkt && id != kGeoKeys && id != kGeoKeyTexts) || size > kLongest) {
+    const std::string_view user(start + 2, 16);
+    const bool is_laz = is_laz_record(user, id) && laz_record_.empty() && size <= kLongest;
+    const bool is_projection = user.starts_with("LASF_Projection");
+    if (!is_laz &&
+        (!is_projection || (id != kWkt && id != kGeoKeys && id != kGeoKeyTexts) || size > kLongest)) {
       position_ += size;
       return reader_.skip(size);
     }
     std::string bytes(static_cast<std::size_t>(size), '\0');
     if (!take(bytes.data(), bytes.size())) return false;
-    if (id == kWkt) {
+    if (is_laz) {
+      laz_record_ = std::move(bytes);
+    } else if (id == kWkt) {
       const std::optional<Crs> crs = crs_of_wkt(std::string_view(bytes).substr(0, bytes.find('\0')));
       if (crs) file_.crs = *crs;
       has_wkt_ |= crs.has_value();
@@ -247,6 +251,7 @@ class LasReader {
   }
 
   void check_size() const {
+    if (header_.is_compressed) return;
     const std::optional<std::uint64_t> remaining = reader_.remaining();
     if (remaining && header_.count > *remaining / header_.point_size) fail_short();
   }
@@ -261,32 +266,55 @@ class LasReader {
     by_ = by_of(options.by);
     if (by_ != By::kNothing) group_of_value_.assign(std::size_t{1} << 16U, kNoGroup);
     const bool takes_all = takes_all_points(options);
-    const std::uint64_t first = options.part.begin(header_.count);
-    const std::uint64_t end = options.part.end(header_.count);
-    skip_to(header_.points_at + first * header_.point_size, "its points do");
-    // Only when the file was seen to hold them all, so that a header alone cannot ask for all memory.
+    std::uint64_t left = begin_points(options);
+    // Only when the file was seen to hold them all, so that a header alone cannot ask for all memory. Of
+    // compressed points that is not seen; few take less than a byte.
     if (takes_all && reader_.remaining() && !options.take_points) {
-      reserve_points(file_.points, static_cast<std::size_t>(end - first));
+      reserve_points(file_.points, static_cast<std::size_t>(std::min(left, *reader_.remaining())));
     }
     const bool are_kept = options.keep != nullptr && takes_all && by_ == By::kNothing &&
-                          options.keep->begin(end - first, header_.lattice);
+                          options.keep->begin(left, header_.lattice);
     kept_ = are_kept ? options.keep : nullptr;
-    const std::size_t points_a_block = kBytesAtOnce / header_.point_size;
-    std::vector<char> block(points_a_block * header_.point_size);
-    for (std::uint64_t done = first; done < end;) {
-      const std::uint64_t part = std::min<std::uint64_t>(points_a_block, end - done);
-      if (!take(block.data(), static_cast<std::size_t>(part) * header_.point_size)) fail_short();
+    const std::size_t points_a_block = kBytesAtOnce / record_size_;
+    std::vector<char> block(points_a_block * record_size_);
+    while (left > 0) {
+      const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(points_a_block, left));
+      take_records(block.data(), count);
+      left -= count;
       if (takes_all && by_ == By::kNothing) {
-        add_all(block.data(), static_cast<std::size_t>(part));
-        hand_on_filled(options, done + part == end);
+        add_all(block.data(), count);
+        hand_on_filled(options, left == 0);
       } else {
-        for (std::size_t i = 0; i < part; ++i) add(block.data() + i * header_.point_size, options);
+        for (std::size_t i = 0; i < count; ++i) add(block.data() + i * record_size_, options);
         hand_on(file_, options);
       }
-      done += part;
     }
     if (kept_ != nullptr) kept_->finish();
     hand_on(file_, options, true);
+  }
+
+  /// Goes to the first point of the part. Returns how many points the part has.
+  std::uint64_t begin_points(const PointFileOptions& options) {
+    if (header_.is_compressed) {
+      const LazHeader header = {header_.format, header_.point_size, header_.points_at, header_.count};
+      laz_.emplace(reader_, header, laz_record_, by_ == By::kSource);
+      laz_->choose(options.part);
+      record_size_ = ChunkDecoder::kUnpackedSize;
+      return laz_->left();
+    }
+    record_size_ = header_.point_size;
+    const std::uint64_t first = options.part.begin(header_.count);
+    skip_to(header_.points_at + first * record_size_, "its points do");
+    return options.part.end(header_.count) - first;
+  }
+
+  /// The next records, of record_size_ bytes each.
+  void take_records(char* to, std::size_t count) {
+    if (laz_) {
+      laz_->read(to, count);
+    } else if (!take(to, count * record_size_)) {
+      fail_short();
+    }
   }
 
   Attributes attributes_of(const char* record) const {
@@ -311,7 +339,7 @@ class LasReader {
     if (file_.points.size() < filled_ + count) file_.points.resize(filled_ + count);
     Point* const points = file_.points.data() + filled_;
     const Lattice lattice = header_.lattice;
-    const std::size_t size = header_.point_size;
+    const std::size_t size = record_size_;
     for (std::size_t i = 0; i < count; ++i) points[i] = point_of(block + i * size, lattice);
     if (kept_ != nullptr) {
       LatticePoint* const kept = kept_->end();
@@ -333,11 +361,11 @@ class LasReader {
     unsigned flags = 0;
     if (is_extended_format_) {
       for (std::size_t i = 0; i < count; ++i) {
-        flags |= static_cast<std::uint8_t>(block[i * header_.point_size + kFlags]);
+        flags |= static_cast<std::uint8_t>(block[i * record_size_ + kFlags]);
       }
     }
     const auto count_in = [&](std::array<std::uint32_t, 256>& some, std::size_t i) {
-      const char* const record = block + i * header_.point_size;
+      const char* const record = block + i * record_size_;
       ++some[static_cast<std::uint8_t>(record[class_at()])];
     };
     std::size_t i = 0;
@@ -361,7 +389,7 @@ class LasReader {
     LatticePoint* const kept = kept_ != nullptr ? kept_->end() : nullptr;
     std::size_t left = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      const char* const record = block + i * header_.point_size;
+      const char* const record = block + i * record_size_;
       const unsigned is_taken = (static_cast<std::uint8_t>(record[kFlags]) & withheld_bit()) == 0 ? 1 : 0;
       points[left] = points[i];
       if (kept != nullptr) kept[left] = kept[i];
@@ -425,9 +453,12 @@ class LasReader {
   bool has_wkt_ = false;
   std::vector<std::uint16_t> geokeys_;
   std::string geokey_texts_;
-  std::uint64_t position_ = 0;  ///< in the file, as far as it matters
-  std::size_t filled_ = 0;      ///< of the file's points, those that add_all() has put there
-  KeptPoints* kept_ = nullptr;  ///< where they go as well, if anywhere
+  std::string laz_record_;        ///< that says how the points are compressed
+  std::optional<LazPoints> laz_;  ///< of a file whose points are compressed
+  std::size_t record_size_ = 0;   ///< bytes from one point to the next, as they are taken
+  std::uint64_t position_ = 0;    ///< in the file, as far as it matters
+  std::size_t filled_ = 0;        ///< of the file's points, those that add_all() has put there
+  KeptPoints* kept_ = nullptr;    ///< where they go as well, if anywhere
   By by_ = By::kNothing;
   std::vector<std::uint32_t> group_of_value_;  ///< a value of 16 bits -> the number of its label, or kNoGroup
   Labels labels_;
@@ -435,9 +466,9 @@ class LasReader {
 
 }  // namespace
 
-bool is_uncompressed_las(std::string_view start) {
-  return start.starts_with("LASF") && start.size() >= kLasStart &&
-         (static_cast<unsigned char>(start[kPointFormat]) & kCompressed) == 0;
+bool is_laz(std::string_view start) {
+  return start.starts_with("LASF") && start.size() > kPointFormat &&
+         (static_cast<unsigned char>(start[kPointFormat]) & kCompressed) != 0;
 }
 
 std::optional<std::uint64_t> promised_points_of_las(std::string_view start) {

@@ -10,7 +10,6 @@
 #include "tool/gdal/vector_formats.hpp"
 #include "tool/points/block_reader.hpp"
 #include "tool/points/readers.hpp"
-#include "tool/points/unpacked_laz.hpp"
 
 namespace polylidar::tool {
 namespace {
@@ -196,33 +195,6 @@ PointFile read_from(BlockReader& reader, const std::string& path) {
   return file;
 }
 
-/// Whether the file says of itself that it is LAS as LASzip compressed it.
-bool is_laz(BlockReader& reader) {
-  const std::string_view start = reader.ahead();
-  return start.starts_with("LASF") && start.size() >= point_files::kLasStart &&
-         !point_files::is_uncompressed_las(start);
-}
-
-PointFile read_laz(const std::string& program, const std::string& path, const PointFileOptions& options) {
-  std::optional<point_files::UnpackedLaz> unpacked;
-  try {
-    unpacked.emplace(program, path);
-  } catch (const std::runtime_error& error) {
-    throw PointFileError(path + ": " + error.what());
-  }
-  try {
-    BlockReader reader(unpacked->file(), path, options);
-    PointFile file = read_from(reader, path);
-    // What it has more to say is nothing that matters, but a pipe that nobody reads would be an error to it.
-    while (!reader.ahead().empty()) reader.skip(reader.ahead().size());
-    if (unpacked->succeeded()) return file;
-  } catch (const PointFileError&) {
-    if (unpacked->succeeded()) throw;
-  }
-  throw PointFileError(path + ": it is a LAZ file, and " + program +
-                       " could not unpack it; try it by itself, or copy the file again");
-}
-
 }  // namespace
 
 std::optional<PointFormat> point_format_of(const std::string& name) {
@@ -251,10 +223,7 @@ PointFile read_point_file(const std::string& path, const PointFileOptions& optio
     return options.vector_formats->read(path, options);
   }
   BlockReader reader(path, options);
-  const std::optional<std::string> program =
-      path != "-" && options.format != PointFormat::kRaw && is_laz(reader) ? point_files::find_laz_program()
-                                                                           : std::nullopt;
-  return program ? read_laz(*program, path, options) : read_from(reader, path);
+  return read_from(reader, path);
 }
 
 bool is_read_in_parts(const std::string& path, const PointFileOptions& options) {
@@ -272,8 +241,7 @@ bool is_read_in_parts(const std::string& path, const PointFileOptions& options) 
     if (!reader.remaining()) return false;
     const PointFormat format =
         of_start.format == PointFormat::kAuto ? find_format(path, reader) : of_start.format;
-    if (format == PointFormat::kRaw) return true;
-    if (format == PointFormat::kLas) return point_files::is_uncompressed_las(reader.ahead());
+    if (format == PointFormat::kRaw || format == PointFormat::kLas) return true;
     return format == PointFormat::kNpy &&
            reader.ahead().substr(0, 256).find("'fortran_order': False") != std::string_view::npos;
   } catch (const PointFileError&) {
@@ -283,12 +251,14 @@ bool is_read_in_parts(const std::string& path, const PointFileOptions& options) 
 
 std::optional<ExpectedPoints> expected_points(const std::string& path, const PointFileOptions& options) {
   constexpr std::uint64_t kLeastLasRecord = 20;  // bytes of a point
+  constexpr std::uint64_t kUsualLazRecord = 1;   // few points take less
   if (!point_files::takes_all_points(options) || !is_read_in_parts(path, options)) return {};
   try {
     BlockReader reader(path, options);
     const std::optional<ExpectedPoints> expected = point_files::expected_points_of_las(reader.ahead());
     // A map for so many points is made before the first one is read.
-    const bool is_possible = expected && expected->count <= reader.remaining().value_or(0) / kLeastLasRecord;
+    const std::uint64_t least = point_files::is_laz(reader.ahead()) ? kUsualLazRecord : kLeastLasRecord;
+    const bool is_possible = expected && expected->count <= reader.remaining().value_or(0) / least;
     return is_possible ? expected : std::nullopt;
   } catch (const PointFileError&) {
     return {};

@@ -33,8 +33,8 @@ enum class PointFormat {
   kNpy,      ///< NumPy's .npy, versions 1 to 3: an array of n x 2 or n x 3 numbers
   kRaw,      ///< little-endian doubles x, y, one point behind the other, and nothing else
   kPly,      ///< Stanford polygons, ascii and binary: the element "vertex" with x and y
-  kLas,      ///< ASPRS LAS 1.0 to 1.4, point formats 0 to 10; without withheld points
-  kGdal,     ///< whatever VectorFormats reads
+  kLas,  ///< ASPRS LAS 1.0 to 1.4, point formats 0 to 10, and LAZ, 0 to 3 and 6 to 8; without withheld points
+  kGdal,  ///< whatever VectorFormats reads
 };
 
 /// Which returns of a LAS file's pulses.
@@ -114,9 +114,8 @@ struct PointFile {
 };
 
 /// The file at `path`, or standard input for "-". A file that gzip compressed is unpacked, where zlib was
-/// there when this was built; a LAZ file that has a name by a program laszip or las2las in the PATH. Throws
-/// PointFileError when it cannot be read, has no byte, is not what its format says, or has a coordinate that
-/// is not finite. A file may hold no points.
+/// there when this was built. Throws PointFileError when it cannot be read, has no byte, is not what its
+/// format says, or has a coordinate that is not finite. A file may hold no points.
 PointFile read_point_file(const std::string& path, const PointFileOptions& options = {});
 
 /// Whether parts of the file can be read by themselves: LAS, NumPy's rows and raw doubles, if it is no pipe

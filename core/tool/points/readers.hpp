@@ -41,9 +41,8 @@ std::vector<Point> read_ply(BlockReader& reader);
 /// With the coordinate system of its WKT or GeoKeys. Groups by classification, return or point_source.
 void read_las(BlockReader& reader, PointFile& file);
 
-/// So many bytes of a file tell whether it is LAS that is not compressed.
-inline constexpr std::size_t kLasStart = 105;
-bool is_uncompressed_las(std::string_view start);
+/// Whether a LAS file, of which these are the first bytes, says that its points are compressed.
+bool is_laz(std::string_view start);
 
 /// How many points a LAS file promises, be it compressed or not, of which these are the first bytes; nothing
 /// where they are too few.
