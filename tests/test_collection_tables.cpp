@@ -36,6 +36,15 @@ TEST(CollectionTables, HaveMeanDeviationAndMaximumOfTheShapes) {
   expect_says(text, "| Polylidar (paper) | 3 | 0 | 20.0 | 10.0 | 30.0 | 2.00 | 1.00 | 3.00 | 3.00 |");
 }
 
+TEST(CollectionTables, DivideByTheTruthsAreaWhereThePaperHasNoSuchTable) {
+  json report = letters_report(kLetters);
+  report["plan"].erase("paper");
+  const std::string text = tables(report);
+  expect_says(text, "error (of the ground truth's area) and time as the paper took it");
+  expect_says(text, "| Polylidar (paper) | 3 | 0 | 10.0 | 5.0 | 15.0 | 2.00 | 1.00 | 3.00 | 3.00 |");
+  expect_says(text, "Error L2 of every shape, % of the ground truth's area");
+}
+
 TEST(CollectionTables, HaveThePapersValuesBeneathOurs) {
   const std::string text = tables(letters_report(kLetters));
   expect_says(text, "| Polylidar, in the paper | 26 | – | 12.8 | 1.8 | 16.8 | 1.2 | 0.3 | 2.4 | – |");

@@ -199,9 +199,8 @@ TEST_F(LazPointsTest, WhatIsNotKnownSaysWhatToDo) {
   expect_refusal(changed(record + 2, bytes_of(std::uint16_t{1})), "compressor 2 and coder 1");
   expect_refusal(changed(record + 38, bytes_of(std::uint16_t{1})), "with items of version 1, and 2 is known");
   expect_refusal(changed(record + 42, bytes_of(std::uint16_t{3})), "point format 1 with 28 bytes a point");
-  expect_refusal(changed(record + 34, bytes_of(std::uint16_t{9})), "with waveforms");
+  expect_refusal(changed(record + 34, bytes_of(std::uint16_t{9})), "does not fit point format 1");
   expect_refusal(changed(record + 32, bytes_of(std::uint16_t{0xFFFF})), "does not fit point format 1");
-  expect_refusal(changed(record + 12, bytes_of(std::uint32_t{0})), "chunks of 0 points");
   expect_refusal(changed(record - 54 + 2, "laszip decoded"), "no record \"laszip encoded\" says how");
   expect_refusal(changed(104, "\x84"), "says point format 4 with 28 bytes");
   // Either of the two top bits says that points are compressed.
@@ -209,10 +208,30 @@ TEST_F(LazPointsTest, WhatIsNotKnownSaysWhatToDo) {
   LasFile waves;
   waves.minor = 3;
   waves.format = 4;
+  waves.records = {{"laszip encoded", 22204, std::string(34, '\0')}};
   std::string text = waves.text();
   text[104] = '\x84';
-  text += std::string(8, '\0');
-  expect_refusal(text, "no record \"laszip encoded\"");
+  expect_refusal(text, "with waveforms");
+}
+
+// LASzip takes chunks of 0 points for chunks that each have their own size.
+TEST_F(LazPointsTest, ChunksOfNoSizeHaveTheirOwn) {
+  const std::string las = las_sample(LazSample::kScan, 1, 0, 100, 5);
+  std::string laz = compressed(las, {.chunks = {60, 40}});
+  laz.replace(laz.find("laszip encoded") - 2 + 54 + 12, 4, bytes_of(std::uint32_t{0}));
+  EXPECT_EQ(read(laz).points, read_points(file("points.las", las)));
+}
+
+// Nothing is read while a chunk is unpacked, which may be all of the file.
+TEST_F(LazPointsTest, UnpackingAChunkTellsProgress) {
+  const auto calls_for = [&](std::size_t points) {
+    std::size_t calls = 0;
+    PointFileOptions options;
+    options.on_progress = [&](std::uint64_t, std::optional<std::uint64_t>) { ++calls; };
+    read(compressed(las_sample(LazSample::kConstant, 6, 0, points, 1), {.chunk_size = 100'000}), options);
+    return calls;
+  };
+  EXPECT_GT(calls_for(60'000), calls_for(20'000));
 }
 
 TEST_F(LazPointsTest, FilesThatLieAreRefused) {

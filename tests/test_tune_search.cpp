@@ -219,6 +219,8 @@ TEST(SplitTest, ACaseIsTrainingWhereShapeAndAllSamplersAre) {
   EXPECT_TRUE(tune::has_unseen_sampler("country-17~noise:0.5~quantised:1"));
   EXPECT_FALSE(tune::has_unseen_sampler("country-17"));
   EXPECT_TRUE(tune::has_unseen_sampler("floor-1")) << "seen by a depth camera";
+  EXPECT_EQ(tune::side_of("towns-be"), tune::Side::kTest);
+  EXPECT_TRUE(tune::has_unseen_sampler("towns-be"));
 }
 
 /// The name of the i-th invented shape, from 1: odd ones are training shapes, even ones are test shapes.

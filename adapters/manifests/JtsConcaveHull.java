@@ -27,12 +27,12 @@ public class JtsConcaveHull {
   /** For methods that recurse; by default a thread has 1 MiB. Memory is used only as far as the stack grows. */
   private static final long STACK_BYTES = 256L << 20;
 
-  /** A seventeenth of the room for new objects in a heap of 1 GiB (-Xms), so that a run collects hardly sooner by it. */
+  /** So much may be left. It is a seventeenth of the room for new objects in a heap of 1 GiB (-Xms), and hardly matters. */
   private static final long MOST_GARBAGE_BYTES = 16L << 20;
 
   private MultiPoint points;
 
-  /** What the heap held after the last collection. */
+  /** The least that the heap held before a run since the last collection: what is in use, and maybe more. */
   private long liveBytes = 0;
 
   public static void main(String[] arguments) {
@@ -127,6 +127,8 @@ public class JtsConcaveHull {
    * collection takes some 12 ms, however little there is to collect: so many short runs share one.
    */
   private void collectGarbage() {
+    // Java may have collected in the last run, and with it points of an earlier load.
+    liveBytes = Math.min(liveBytes, usedBytes());
     if (usedBytes() - liveBytes < MOST_GARBAGE_BYTES) return;
     System.gc();
     liveBytes = usedBytes();

@@ -64,8 +64,8 @@ class Triangles:
         known = set(map(tuple, edges.reshape(-1, 4).tolist()))
         faces = shapely.ops.polygonize(map(shapely.geometry.LineString, edges))
         polygons = [face for face in faces if _first_edge(face) in known]  # the others are holes
-        # Whether these are the polygons is part of the method: it decides between the two ways to make them, and takes
-        # less than 0.3 % of the time.
+        # This test is part of the method, as it chooses between the two ways to make polygons. It takes less than 0.3 %
+        # of the time.
         area = self.doubled_areas[kept].sum() / 2
         if (abs(sum(polygon.area for polygon in polygons) - area) <= 1e-9 * area
                 and shapely.geometry.MultiPolygon(polygons).is_valid):

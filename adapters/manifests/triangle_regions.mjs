@@ -17,7 +17,7 @@ const next = (e) => (e % 3 === 2 ? e - 2 : e + 1);
 const previous = (e) => (e % 3 === 0 ? e + 2 : e - 1);
 
 /**
- * Whether a perimeter is within a finite limit, by its squared edges. It is more than two and at most three longest edges,
+ * Whether a perimeter is within a finite limit, by its squared edges. A perimeter is two to three times the longest edge,
  * which decides for nearly all triangles without a root.
  */
 function is_perimeter_within(limit, ab, bc, ca, longest) {

@@ -77,8 +77,11 @@ void append(std::vector<Entry>& entries, const std::vector<Entry>& more) {
 
 /// What the columns of values hold, for a caption.
 std::string values_text(const TableContext& context) {
-  return context.measurements.has_times() ? "error (of the result's area) and time as the paper took them"
-                                          : "error (of the result's area) as the paper took it";
+  const ErrorKind kind = error_kind(context);
+  const bool is_papers = kind.metric == std::string("l2_paper");
+  const std::string error = std::string("error (") + kind.area + ")";
+  if (!context.measurements.has_times()) return error + (is_papers ? " as the paper took it" : "");
+  return error + " and time as the paper took " + (is_papers ? "them" : "it");
 }
 
 void append_value_columns(const TableContext& context, std::vector<table::Column>& columns) {
@@ -210,7 +213,7 @@ table::Cell error_cell(const TableContext& context, const Line& line, const Case
   if (const record::RunRecord* failure = first_failure(runs)) {
     return failure->status == record::Status::kNotInstalled ? "" : failure_name(*failure);
   }
-  const auto errors = all_values(runs, "l2_paper");
+  const auto errors = all_values(runs, error_kind(context).metric);
   if (errors.empty()) return {};
   table::Cell cell = table::Number(100 * statistics::median(errors), 1);
   cell.sign = hull_sign(runs);
@@ -225,7 +228,8 @@ table::Cell error_cell(const TableContext& context, const Line& line, const Case
 
 table::Table shape_table(const TableContext& context, const std::string& id, const std::vector<Case>& cases,
                          const json& published) {
-  table::Table table{id, "Error L2 of every shape, % of the result's area", {table::words("Shape")}};
+  table::Table table{
+      id, std::string("Error L2 of every shape, % ") + error_kind(context).area, {table::words("Shape")}};
   const std::vector<Line> lines = lines_of(context, cases);
   for (const Line& line : lines) table.columns.emplace_back(label(context, line), "%");
   bool has_brackets = false;

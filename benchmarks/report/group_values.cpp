@@ -40,7 +40,7 @@ void add_spreads(const TableContext& context, const Line& line, const std::vecto
   std::vector<double> equal_work;
   for (const Case& which : cases) {
     const auto runs = context.measurements.find(line, which);
-    const std::vector<double> of_case = all_values(runs, "l2_paper");
+    const std::vector<double> of_case = all_values(runs, error_kind(context).metric);
     if (!of_case.empty()) errors.push_back(statistics::median(of_case));
     if (!context.measurements.has_times()) continue;
     times.push_back(statistics::median(all_times(runs, Boundary::kPaper)) / 1e6);

@@ -25,7 +25,7 @@ struct GroupValues {
   std::size_t solved = 0;            ///< cases with a result that is believed
   std::size_t failed = 0;            ///< cases without; where a method is not installed it has not failed
   std::size_t invalid = 0;           ///< of the failed ones those whose result is not a valid multipolygon
-  std::optional<Spread> error;       ///< fractions of the result's area, as the paper divides it
+  std::optional<Spread> error;       ///< as a fraction of the area that error_kind() names
   std::optional<Spread> time;        ///< milliseconds, as the paper took it
   std::optional<Spread> equal_work;  ///< milliseconds
 };

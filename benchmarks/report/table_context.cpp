@@ -92,6 +92,12 @@ std::string failure_name(const record::RunRecord& run) {
              : to_string(run.status);
 }
 
+ErrorKind error_kind(const TableContext& context) {
+  const bool is_of_paper = !context.report.at("plan").value("paper", std::string()).empty();
+  return is_of_paper ? ErrorKind{"l2_paper", "of the result's area"}
+                     : ErrorKind{"l2", "of the ground truth's area"};
+}
+
 table::Cell cell(const Runs& runs, Quantity quantity) {
   if (runs.empty()) return {};
   if (const record::RunRecord* failure = first_failure(runs)) return failure_name(*failure);

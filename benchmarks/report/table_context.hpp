@@ -56,6 +56,14 @@ std::string hull_sign(const Runs& runs);
 /// Adds to `table` what the sign means, if a cell has it.
 void explain_hull_sign(table::Table& table);
 
+/// The metric and the words of the errors in tables of many shapes: of the result's area in the paper's own
+/// experiments, as the paper divides them, else of the ground truth's.
+struct ErrorKind {
+  const char* metric;
+  const char* area;  ///< "of the result's area"
+};
+ErrorKind error_kind(const TableContext& context);
+
 /// What the cell of one line and case says.
 table::Cell cell(const Runs& runs, Quantity quantity);
 

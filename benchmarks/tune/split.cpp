@@ -48,6 +48,7 @@ const std::vector<SplitRow>& shape_split() {
       {"floor", kTest, "The paper reports such floors."},
       {"lowfloor", kTest, "Floors as the paper's, from a low camera."},
       {"recorded", kTest, "Floors that users recorded: nothing may be fitted to them."},
+      {"towns", kTest, "Real points and a truth of somebody else: nothing may be fitted to them."},
       {"country", kTest,
        "Real borders by another author than the counties': fjords, archipelagos, enclaves."},
       {"clipart", kTest, "Silhouettes by many authors."},
@@ -102,7 +103,7 @@ std::string source_of(const std::string& dataset) {
   for (const char* source : {"letter", "degenerate"}) {
     if (shape.starts_with(std::string(source) + "_")) return source;
   }
-  for (const char* source : {"zoo", "real"}) {
+  for (const char* source : {"zoo", "real", "towns"}) {
     if (shape.starts_with(std::string(source) + "-")) return source;
   }
   const auto member = split_member_name(shape);
@@ -112,6 +113,7 @@ std::string source_of(const std::string& dataset) {
 std::vector<std::string> samplers_of(const std::string& dataset) {
   const std::string source = source_of(dataset);
   if (source.ends_with(kSimulatedFloor) || source == kRecordedFloor) return {"depthcamera"};
+  if (source == "towns") return {"towns"};  // as people settle
   std::vector<std::string> samplers;
   if (const auto parts = split_stress(dataset)) {
     for (const Stress& stress : parts->second) samplers.push_back(stress.kind->name);

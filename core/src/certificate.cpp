@@ -97,18 +97,19 @@ constexpr unsigned kStrip = 32;
 constexpr int kSide = 16;
 static_assert(kReach <= kSide);
 constexpr std::size_t kLevels = 4;
-/// So many are checked at once if one of them may have uncertain cells. Pairs have their cells in one word.
+/// So many strips are checked together if one of them may have uncertain cells. A word of a bitmap has the
+/// cells of two.
 constexpr std::size_t kStripsAtOnce = 4;
 static_assert(kStripsAtOnce % 2 == 0);
 
 /// Of one row: strip by strip the windows of level 0, then those of level 1, and so on.
 using WindowRow = const Word*;
 
-/// How far away, in columns or rows, the cell of a centre is from p's: (2) of the header.
+/// How many columns and rows the cell of a disk's centre can be away from p's: below (2) of the header.
 constexpr int kCentre = kRadius + 1;
 
-/// Rows from this cell's -> how far to either side cells lie in every disk of radius kRadius with its centre
-/// in this cell: (2) of the header.
+/// The core of a cell, (2) of the header: rows away from the cell, up or down -> how many columns the core
+/// has on either side of the cell's own; -1 where it has no cells.
 constexpr auto make_core() {
   std::array<int, kRadius> half_widths{};
   for (int row = 0; row < kRadius; ++row) {
@@ -164,8 +165,8 @@ template <std::size_t kSector, std::size_t... kRow>
   }
 }
 
-/// Which columns of a window, from kCentre to the left of the strip on, have an occupied cell in the row kRow
-/// of the core, counted from kCoreRows below on.
+/// Which cells of a strip and of kCentre columns on either side have an occupied cell in row kRow of their
+/// cores, counted from the lowest. Bit 0 is the cell farthest to the left.
 template <std::size_t kRow>
 [[gnu::always_inline]] inline Word any_in_core(WindowRow row, std::size_t strips, std::size_t strip) {
   constexpr int kFromMiddle = static_cast<int>(kRow) - kCoreRows;
@@ -178,7 +179,7 @@ template <std::size_t kRow>
   return any | window >> static_cast<unsigned>(kSide - kCentre + kHalfWidth + 1 - (1 << kLevel));
 }
 
-/// Which of a strip and kCentre columns on either side are cells with an empty core.
+/// Writes for each strip which cells, of its own and of kCentre columns on either side, have an empty core.
 template <std::size_t... kRow>
 [[gnu::always_inline]] inline void find_empty_cores(const WindowRow* rows, std::size_t strips, Word* empty,
                                                     std::index_sequence<kRow...> /*rows*/) {
@@ -224,7 +225,7 @@ template <std::size_t... kRow>
   return static_cast<Directions>(open);
 }
 
-/// Where the core's lowest row is among `rows`.
+/// The same; `rows` begin with the lowest row of the cores.
 [[gnu::always_inline]] inline void find_empty_cores(const WindowRow* rows, std::size_t strips, Word* empty) {
   find_empty_cores(rows, strips, empty, std::make_index_sequence<2 * kCoreRows + 1>());
 }
@@ -338,14 +339,15 @@ void find_uncertain_cells(const Grid& grid, const Bitmap& occupied, Grid::Cell b
                           Bitmap& uncertain, Kernel kernel) {
   const Loops loops = loops_of(kernel);
   const std::size_t strips = (grid.columns() + kStrip - 1) / kStrip;
-  // The windows of the last kRows rows, those that are certified in the row in the middle, and empty cores.
+  // The windows of the last kRows rows; of the row in the middle the certified cells; of one row the cells
+  // with an empty core.
   std::vector<Word> memory((kLevels * kRows + 2) * strips);
   Word* const certified = &memory[kLevels * kRows * strips];
   Word* const empty = certified + strips;
   std::array<Word*, kRows> rows;
   for (std::size_t r = 0; r < kRows; ++r) rows[r] = &memory[r * kLevels * strips];
-  // Strip -> one past the last row, from kCentre below `begin` on, where it or a cell near it has an empty
-  // core.
+  // Strip -> one past the last row that has a cell with an empty core in the strip or at most kCentre columns
+  // beside it. Rows count from kCentre below `begin` on; 0 if there is none.
   std::vector<Grid::Cell> empty_until(strips);
 
   const Word* next = occupied.words() + grid.first_word(begin) - std::size_t{grid.row_words()} * kReach;
@@ -355,8 +357,7 @@ void find_uncertain_cells(const Grid& grid, const Bitmap& occupied, Grid::Cell b
     std::rotate(rows.begin(), rows.begin() + 1, rows.end());
     fill_windows(next, strips, rows.back());
 
-    // Of the rows at most kCentre away from this one, all but the last have been looked at for the row
-    // before.
+    // The rows at most kCentre away from this one: all but the highest were looked at for the row before.
     for (std::size_t r = row == begin ? 0 : 2 * kCentre; r <= 2 * kCentre; ++r) {
       loops.find_empty_cores(&rows[kReach - kCentre - kCoreRows + r], strips, empty);
       for (std::size_t strip = 0; strip < strips; ++strip) {

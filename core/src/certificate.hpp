@@ -17,15 +17,18 @@
 // shorter than 180 degrees that is one of its ends, unless u = -d / |d| lies in between, where d . u = -|d|.
 // In that case d . u < 0 at both ends, as the arc is below 90 degrees, and (1) fails there too.
 //
-// Few cells need that test. If an open disk of radius r through p is empty, so are all cells that lie in
-// every disk with its centre in the cell of this one's centre, the *core* of that cell,
-//   (|column| + 1)^2 + (|row| + 1)^2 < r^2  with column and row as the core's cell is away.            (2)
-// That cell is at most r + 1 columns and rows away from p's. A cell of p with no empty core that near is
-// certified; the code asks for strips of cells.
+// Few cells need that test. The *core* of a cell C is made of the cells that lie in every open disk of radius
+// r with its centre in C. A cell some columns and rows away from C is one of them if
+//   (|columns| + 1)^2 + (|rows| + 1)^2 < r^2.                                                           (2)
+// Suppose that p is not certified. Then an open disk of radius r with p on its circle is empty, and so is the
+// core of the cell of its centre. That cell is at most r + 1 columns and rows away from p's: r, and one more
+// for rounding. So p is certified if no cell that near has an empty core. The code asks this of strips of
+// cells, and tests the sectors only near an empty core.
 //
-// Rounding. Boxes are widened by kSlack on each side for the rounding of the grid (Grid). The ends of the
-// sectors are doubles, which differ from unit vectors by less than 2^-50. The code tests |d|^2 + kExtra < 2 r
-// (d . u). The terms are below 2^9, so all errors together are below 2^-39, far below kExtra = 2^-20.
+// Rounding. Boxes are widened by kSlack on each side for the rounding of the grid (Grid). In (2) only the
+// core's cells are widened, as C is where the centre exactly lies. The ends of the sectors are doubles, which
+// differ from unit vectors by less than 2^-50. The code tests |d|^2 + kExtra < 2 r (d . u). The terms are
+// below 2^9, so all errors together are below 2^-39, far below kExtra = 2^-20.
 //
 // The tables are made once from these inequalities; they do not depend on the points, as r is a fixed number
 // of cells.

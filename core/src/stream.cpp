@@ -359,7 +359,8 @@ void Stream::find_occupied_cells() {
     for (std::size_t i = 0; i < block.points.size(); ++i) {
       if (block.has(i)) occupied_->prefetch(block.cells[i]);  // many wait for memory at the same time
     }
-    // Points of a scan line are in one word for a while, and a change that all threads see takes its time.
+    // Points that follow one another in a scan line mostly have their bits in one word. A change that all
+    // threads see takes its time, so these bits are set together.
     std::size_t word = 0;
     Bitmap::Word bits = 0;
     const auto set_bits = [&] {

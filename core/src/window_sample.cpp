@@ -27,8 +27,8 @@ constexpr std::size_t kPointsForWindow = 1120;
 constexpr std::size_t kFewestWindows = 7;
 /// Half the side of a window in spacings of the points.
 constexpr double kHalfInner = 4;
-/// The margin of a window of which only the usual size is asked: of points at random, 1 triangle in 150 has a
-/// wider circle.
+/// The margin, in spacings, of a window that only tells a usual size: of points at random, 1 triangle in 150
+/// has a wider circle.
 constexpr double kNarrowMargin = 1.5;
 /// Beyond so many times what they would have where the density is the same everywhere, windows are not looked
 /// into.

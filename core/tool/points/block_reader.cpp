@@ -92,7 +92,7 @@ std::size_t BlockReader::read_raw(char* to, std::size_t size) {
     if (count < 0 && ready != 0 && errno != EINTR) fail("it cannot be read: " + reason(errno));
     taken_ += static_cast<std::uint64_t>(std::max<ssize_t>(count, 0));
     // Also after a signal, so that an interruption is seen while a pipe stays silent.
-    if (options_.on_progress) options_.on_progress(taken_, size_);
+    tell_progress();
     if (count >= 0) return static_cast<std::size_t>(count);
   }
 }
@@ -180,9 +180,16 @@ bool BlockReader::read_at(std::uint64_t place, char* to, std::size_t size) {
     const auto given = static_cast<std::size_t>(std::max<ssize_t>(count, 0));
     done += given;
     taken_apart_ += given;
-    if (options_.on_progress) options_.on_progress(std::min(taken_ + taken_apart_, *size_), size_);
+    tell_progress();
   }
   return true;
+}
+
+void BlockReader::tell_progress() const {
+  if (!options_.on_progress) return;
+  // What was read ahead at the beginning may be read apart again.
+  const std::uint64_t taken = taken_ + taken_apart_;
+  options_.on_progress(size_ ? std::min(taken, *size_) : taken, size_);
 }
 
 std::optional<std::uint64_t> BlockReader::remaining() const {

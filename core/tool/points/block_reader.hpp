@@ -54,6 +54,10 @@ class BlockReader {
   /// stays there; false when there are fewer.
   bool read_at(std::uint64_t place, char* to, std::size_t size);
 
+  /// Calls options().on_progress. Reading does so by itself; what takes long between two reads has to, so
+  /// that it can be interrupted.
+  void tell_progress() const;
+
   /// How many bytes follow; nothing when that is not known, as of a pipe.
   std::optional<std::uint64_t> remaining() const;
   /// The number, from 1, of the line that the last byte or line was in.

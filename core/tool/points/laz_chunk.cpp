@@ -165,7 +165,8 @@ class TimeSkipper {
   }
 
   void skip(ArithmeticDecoder& decoder) {
-    while (is_elsewhere(decoder)) {
+    // Damaged bytes could lead from one sequence to the next without end.
+    while (is_elsewhere(decoder) && !decoder.is_broken()) {
     }
   }
 

@@ -32,11 +32,9 @@ enum ItemKind : std::uint64_t {
   kPoint10Item = 6,
   kTimeItem = 7,
   kColourItem = 8,
-  kWaves13Item = 9,
   kPoint14Item = 10,
   kColour14Item = 11,
   kInfrared14Item = 12,
-  kWaves14Item = 13,
   kBytes14Item = 14
 };
 
@@ -114,11 +112,7 @@ void LazPoints::find_layout(const LazHeader& header, std::string_view record, bo
         "its LAS header says that the points are compressed, but no record \"laszip encoded\" says how; copy "
         "or save the file again");
   }
-  const std::vector<Item> items = items_of(record);
-  const bool has_waves = std::any_of(items.begin(), items.end(), [](const Item& item) {
-    return item.kind == kWaves13Item || item.kind == kWaves14Item;
-  });
-  if (has_waves || header.format == 4 || header.format == 5 || header.format > 8) {
+  if (header.format == 4 || header.format == 5 || header.format > 8) {
     reader_.fail("it is a LAZ file with waveforms, which are not unpacked here" + std::string(kConvert));
   }
   const std::uint64_t compressor = number_in(record, kCompressor, 2);
@@ -131,6 +125,7 @@ void LazPoints::find_layout(const LazHeader& header, std::string_view record, bo
   layout_ = layout_of(header.format, wants_source);
   layout_.extra_bytes = header.point_size - std::min(layout_.record_size(), header.point_size);
   const std::vector<std::uint64_t> kinds = kinds_of(layout_);
+  const std::vector<Item> items = items_of(record);
   std::uint64_t size = 0;
   for (const Item& item : items) size += item.size;
   const bool is_known = std::equal(items.begin(), items.end(), kinds.begin(), kinds.end(),
@@ -149,9 +144,7 @@ void LazPoints::find_layout(const LazHeader& header, std::string_view record, bo
   }
   has_chunks_ = compressor != kPointwiseCompressor;
   chunk_size_ = static_cast<std::uint32_t>(number_in(record, kChunkSize, 4));
-  if (has_chunks_ && chunk_size_ == 0) {
-    reader_.fail("it is a LAZ file with chunks of 0 points; write the file again");
-  }
+  if (chunk_size_ == 0) chunk_size_ = kVariable;  // as LASzip has it
 }
 
 /// Where the file ends. A pipe is read into memory, as what is at its end says where the chunks are.
@@ -247,6 +240,7 @@ void LazPoints::read(char* records, std::size_t count) {
     if (left_in_chunk_ == 0) begin_chunk();
     const auto now = static_cast<std::size_t>(std::min<std::uint64_t>(count, left_in_chunk_));
     if (!decoder_->read(records, now)) fail_at_chunk();
+    reader_.tell_progress();  // a chunk may be all of the file
     records += now * ChunkDecoder::kUnpackedSize;
     count -= now;
     left_ -= now;

@@ -97,8 +97,8 @@ struct PointFileOptions {
   const VectorFormats* vector_formats = nullptr;
   /// Of kGdal, which of several layers; empty: the only one, or the only one of points.
   std::string layer = {};
-  /// Called after every block, about a MiB, with the bytes read so far and, of a regular file, its size. What
-  /// it throws ends the reading.
+  /// Called after every block, about a MiB, and while points are unpacked, with the bytes read so far and, of
+  /// a regular file, its size. What it throws ends the reading.
   std::function<void(std::uint64_t, std::optional<std::uint64_t>)> on_progress = {};
 };
 
@@ -118,8 +118,8 @@ struct PointFile {
 /// format says, or has a coordinate that is not finite. A file may hold no points.
 PointFile read_point_file(const std::string& path, const PointFileOptions& options = {});
 
-/// Whether parts of the file can be read by themselves: LAS, NumPy's rows and raw doubles, if it is no pipe
-/// and nothing is compressed. Also not if the file cannot be read: reading it then says why.
+/// Whether parts of the file can be read by themselves: LAS, LAZ, NumPy's rows and raw doubles, if it is no
+/// pipe and gzip did not compress it. Also not if the file cannot be read: reading it then says why.
 bool is_read_in_parts(const std::string& path, const PointFileOptions& options);
 
 /// What the header of a LAS file that is_read_in_parts() says of its points; nothing of other files, and
