@@ -206,17 +206,18 @@ TEST_P(CertificateByKernel, OfPointsIsThatOfItsDefinition) {
 // lies.
 TEST_P(CertificateByKernel, AnEmptyDiskMakesItsCellUncertain) {
   constexpr std::size_t kSize = 330;
+  constexpr std::size_t kDiameter = std::size_t{2} * kRadius;
   Random random(5);
   for (int k = 0; k < 600; ++k) {
     SCOPED_TRACE(k);
     Cells cells(kSize, static_cast<std::uint64_t>(k), k % 2 == 0 ? 0.6 : 1);
-    const std::size_t column = kRadius * 2 + random.below(kSize - 4 * kRadius);
-    const std::size_t row = kRadius * 2 + random.below(kSize - 4 * kRadius);
+    const std::size_t column = kDiameter + random.below(kSize - 2 * kDiameter);
+    const std::size_t row = kDiameter + random.below(kSize - 2 * kDiameter);
     const double angle = kTurn * random.unit();
     const Point p{static_cast<double>(column) + random.unit(), static_cast<double>(row) + random.unit()};
     const Point centre{p.x + kRadius * std::cos(angle), p.y + kRadius * std::sin(angle)};
-    for (std::size_t r = row - 2 * kRadius; r <= row + 2 * kRadius; ++r) {
-      for (std::size_t c = column - 2 * kRadius; c <= column + 2 * kRadius; ++c) {
+    for (std::size_t r = row - kDiameter; r <= row + kDiameter; ++r) {
+      for (std::size_t c = column - kDiameter; c <= column + kDiameter; ++c) {
         // A cell that has a part outside of the disk may have a point there.
         const double x = std::max(centre.x - static_cast<double>(c), static_cast<double>(c) + 1 - centre.x);
         const double y = std::max(centre.y - static_cast<double>(r), static_cast<double>(r) + 1 - centre.y);

@@ -357,8 +357,9 @@ void find_uncertain_cells(const Grid& grid, const Bitmap& occupied, Grid::Cell b
     std::rotate(rows.begin(), rows.begin() + 1, rows.end());
     fill_windows(next, strips, rows.back());
 
+    constexpr std::size_t kLast = std::size_t{2} * kCentre;
     // The rows at most kCentre away from this one: all but the highest were looked at for the row before.
-    for (std::size_t r = row == begin ? 0 : 2 * kCentre; r <= 2 * kCentre; ++r) {
+    for (std::size_t r = row == begin ? 0 : kLast; r <= kLast; ++r) {
       loops.find_empty_cores(&rows[kReach - kCentre - kCoreRows + r], strips, empty);
       for (std::size_t strip = 0; strip < strips; ++strip) {
         if (empty[strip] != 0) empty_until[strip] = row - begin + r + 1;

@@ -463,12 +463,12 @@ bool Stream::find_near_cells(const detail::FewCells& uncertain_cells, detail::Fe
         grid_.first_word(around.begin), grid_.first_word(around.end), [&](Grid::Cell cell) {
           const Grid::Cell row = cell / in_row - Grid::kMargin;
           const Grid::Cell column = cell % in_row;
-          constexpr auto half_widths = detail::kReachedHalfWidths;
-          for (std::size_t k = 0; k < half_widths.size(); ++k) {
+          constexpr auto kHalfWidths = detail::kReachedHalfWidths;
+          for (std::size_t k = 0; k < kHalfWidths.size(); ++k) {
             const Grid::Cell other = row + k - detail::kReachedRows;  // wraps round below the first
             if (!wanted.has(other)) continue;
-            found.set_run((other - begin + Grid::kMargin) * in_row + column - half_widths[k],
-                          2 * half_widths[k] + 1);
+            found.set_run((other - begin + Grid::kMargin) * in_row + column - kHalfWidths[k],
+                          2 * kHalfWidths[k] + 1);
           }
         });
   };
