@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "benchmarks/metrics/validity.hpp"
@@ -104,12 +103,6 @@ TEST(Simplify, LeavesOutWhatIsOnALineAndLittleElse) {
   EXPECT_EQ(simplify(square, points, 1e-12)[0].shell.size(), 4U);
   EXPECT_EQ(simplify(square, points, 1000)[0].shell.size(), 3U);
   EXPECT_TRUE(simplify({}, points, 1).empty());
-}
-
-TEST(Simplify, ARectangleOfTheLeastHeight) {
-  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
-  const std::vector<Point> points = {{0, 0}, {2, 0}, {4, 0}, {4, kLeast}, {0, kLeast}};
-  EXPECT_EQ(simplify({{.shell = {0, 1, 2, 3, 4}, .holes = {}}}, points, 1e-9)[0].shell.size(), 3U);
 }
 
 TEST(Simplify, AWavyOutlineLosesMostVertices) {
