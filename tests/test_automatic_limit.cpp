@@ -8,7 +8,6 @@
 #include <map>
 #include <optional>
 #include <random>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -149,21 +148,26 @@ double median_of(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// Of the corners of these triangles, the share that is not in the largest piece that those up to a size are.
-double share_outside_largest_piece(const Triangulation& mesh, const std::vector<double>& sizes,
-                                   double largest) {
-  std::map<std::uint32_t, std::set<std::uint32_t>> piece;  // by any of its corners
-  for (const std::uint32_t v : mesh.triangles) piece[v] = {v};
-  const auto points = static_cast<double>(piece.size());
-  std::size_t most = 1;
+/// By how much spacings scatter too much: of each triangle its first corner counts, and of the triangles
+/// round this corner the third smallest.
+double plain_excess(const Triangulation& mesh, const std::vector<double>& sizes, double points,
+                    const detail::AutomaticConstants& constants) {
+  std::map<std::uint32_t, std::vector<double>> sizes_at;
+  for (std::size_t e = 0; e < mesh.triangles.size(); ++e) sizes_at[mesh.triangles[e]].push_back(sizes[e / 3]);
+  std::vector<double> spacings;
   for (std::size_t t = 0; t < sizes.size(); ++t) {
-    if (sizes[t] > largest) continue;
-    std::set<std::uint32_t> joined;
-    for (std::size_t k = 0; k < 3; ++k) joined.merge(std::set(piece[mesh.triangles[3 * t + k]]));
-    for (const std::uint32_t v : joined) piece[v] = joined;
-    most = std::max(most, joined.size());
+    std::vector<double> round = sizes_at[mesh.triangles[3 * t]];
+    round.resize(std::max<std::size_t>(round.size(), 3), std::numeric_limits<double>::infinity());
+    std::sort(round.begin(), round.end());
+    spacings.push_back(round[2]);
   }
-  return 1 - static_cast<double>(most) / points;
+  std::sort(spacings.begin(), spacings.end());
+  const std::size_t count = spacings.size();
+  const double median = spacings[count / 2];
+  if (std::isinf(median)) return 0;
+  const double scatter = std::log(spacings[85 * count / 100] / median);
+  return std::max(scatter - constants.even - 1.6 / std::sqrt(std::min(points, static_cast<double>(count))),
+                  0.0);
 }
 
 /// The size of the least cost for points that make one block.
@@ -171,7 +175,6 @@ double plain_size(const std::vector<Point>& points, const detail::AutomaticConst
   const Triangulation mesh = delaunay(points);
   std::vector<double> sizes;
   std::vector<double> areas;
-  std::vector<double> shortest;
   std::size_t flat = 0;
   for (std::size_t e = 0; e < mesh.triangles.size(); e += 3) {
     const Ring triangle{points[mesh.triangles[e]], points[mesh.triangles[e + 1]],
@@ -180,7 +183,6 @@ double plain_size(const std::vector<Point>& points, const detail::AutomaticConst
     for (std::size_t k = 0; k < 3; ++k)
       edges.push_back(testing::distance(triangle[k], triangle[(k + 1) % 3]));
     const double second_longest = median_of(edges);
-    shortest.push_back(*std::min_element(edges.begin(), edges.end()));
     const double longest = *std::max_element(edges.begin(), edges.end());
     flat += 2 * std::abs(signed_area(triangle)) <= 0.17 * longest * longest ? 1U : 0U;
     areas.push_back(std::abs(signed_area(triangle)));
@@ -200,16 +202,10 @@ double plain_size(const std::vector<Point>& points, const detail::AutomaticConst
     return std::log(sum);
   };
   double least_cost = std::numeric_limits<double>::infinity();
-  std::sort(shortest.begin(), shortest.end());
-  const std::size_t triangles = shortest.size();
-  const double scatter = triangles < 16 || 2 * flat >= triangles
-                             ? 0
-                             : std::log(shortest[4 * triangles / 5] / shortest[2 * triangles / 5]);
-  const double unsure = 1.8 / std::sqrt(static_cast<double>(triangles));
   const auto count = static_cast<double>(points.size());
   const double usual = constants.usual * std::sqrt(std::log(count)) * median;
-  const double doubt = 1 + constants.doubt * std::max(scatter - constants.even_edges - unsure, 0.0) * 0.4 *
-                               std::min(1.0, share_outside_largest_piece(mesh, sizes, usual) / 0.25);
+  const double excess = 2 * flat >= sizes.size() ? 0 : plain_excess(mesh, sizes, count, constants);
+  const double doubt = 1 + constants.doubt * excess;
   double best = usual;
   const int below = static_cast<int>(constants.below);
   const int above = static_cast<int>(constants.above);
@@ -477,20 +473,43 @@ double area_of_strokes(double width, std::size_t count, bool has_outliers) {
   return sum / 20;
 }
 
-// Unless there are many points, they are clustered only if the usual limit leaves them in pieces.
-TEST(AutomaticLimit, FewPointsOfThinStrokesAreNoClusters) {
+TEST(AutomaticLimit, FewPointsOfThinStrokesAreEven) {
   const double mean = area_of_strokes(0.5, 600, false);
-  EXPECT_LT(mean, 1.3);  // 1.7 where the scatter of edges alone tells
+  EXPECT_LT(mean, 1.3);
   EXPECT_GT(mean, 0.7);
 }
 
-TEST(AutomaticLimit, ThinStrokesAmongOutliersAreNoClusters) {
-  EXPECT_LT(area_of_strokes(0.3, 1500, true), 1.0);  // 1.28 where scatter alone tells
+TEST(AutomaticLimit, ThinStrokesAmongOutliersAreEven) {
+  EXPECT_LT(area_of_strokes(0.3, 1500, true), 1.0);
   EXPECT_GT(area_of_strokes(0.3, 1500, true), 0.7);
 }
 
+/// Whether the scatter of the spacings has any effect on the limit of these points.
+bool are_uneven(const std::vector<Point>& points) {
+  detail::DelaunayBuilder builder;
+  detail::ThreadPool pool;
+  builder.build(points, pool);
+  detail::AutomaticLimit limit;
+  limit.choose_by_blocks(builder, 1, pool);
+  const ChosenSizes sizes = limit.range().value();
+  limit.choose_by_blocks(builder, 1, pool, {.doubt = 0});
+  return sizes != limit.range().value();
+}
+
+TEST(AutomaticLimit, TakesPointsAtRandomForEven) {
+  int uneven = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    for (const std::size_t count : {300U, 3000U}) {
+      uneven += are_uneven(testing::uniform_points(count, seed)) ? 1 : 0;
+      uneven += are_uneven(sparser_to_the_right(count, 4, seed)) ? 1 : 0;
+    }
+    EXPECT_TRUE(are_uneven(clustered(3000, seed))) << seed;
+  }
+  EXPECT_LE(uneven, 4);  // of 80
+}
+
 // Roads are far apart, but the points along them are even, as receivers write them down at a fixed interval.
-TEST(AutomaticLimit, TakesRoadsForNoClusters) {
+TEST(AutomaticLimit, TakesRoadsForEven) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform(0, 1);
   std::vector<Point> points;
@@ -504,14 +523,7 @@ TEST(AutomaticLimit, TakesRoadsForNoClusters) {
       points.push_back({across, along});
     }
   }
-  detail::DelaunayBuilder builder;
-  detail::ThreadPool pool;
-  builder.build(points, pool);
-  detail::AutomaticLimit limit;
-  limit.choose_by_blocks(builder, 1, pool);
-  const ChosenSizes sizes = limit.range().value();
-  limit.choose_by_blocks(builder, 1, pool, {.doubt = 0});
-  EXPECT_EQ(sizes, limit.range().value());
+  EXPECT_FALSE(are_uneven(points));
 }
 
 // Of a field that varies anyway: without a bound the outliers' own blocks would make them a part of the

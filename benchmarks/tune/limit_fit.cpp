@@ -22,7 +22,7 @@ constexpr int kOtherStarts = 2;
 /// The first of limit_knobs(). `part` and `wide` hardly change an error: they are chosen so that chance
 /// leaves no parts and holes, which fit_default counts. `smoothed_from` is a number of blocks that no set of
 /// the fit is near, and `step` is of points on outlines, which the fit has none of.
-constexpr std::size_t kFittedKnobs = 13;
+constexpr std::size_t kFittedKnobs = 12;
 
 double weight_of(const std::string& sampling) {
   return sampling == "uniform" ? 1.5 : 1;
@@ -215,8 +215,7 @@ const std::vector<LimitKnob>& limit_knobs() {
                                                {"noise", &C::noise, nullptr, 0.03, 0.4},
                                                {"usual", &C::usual, nullptr, 0.5, 1.2},
                                                {"pull", &C::pull, nullptr, 2, 120},
-                                               {"even_sizes", &C::even_sizes, nullptr, 0.4, 0.8},
-                                               {"even_edges", &C::even_edges, nullptr, 0.5, 0.9},
+                                               {"even", &C::even, nullptr, 0.2, 0.5},
                                                {"doubt", &C::doubt, nullptr, 5, 500},
                                                {"still", &C::still, nullptr, 0.0003, 0.1},
                                                {"below", nullptr, &C::below, 3, 10},
@@ -269,7 +268,7 @@ std::vector<LimitVariant> limit_ablations() {
   std::vector<LimitVariant> variants = {{"whole rule", {}},
                                         {"growth not bounded", {.growth = kInfinity}},
                                         {"not smoothed", {.smoothed_from = kNever}},
-                                        {"clusters not recognised", {.doubt = 0}},
+                                        {"scatter not looked at", {.doubt = 0}},
                                         {"not shrunk to the median", {.noise = 0, .smoothed_from = kNever}},
                                         {"one block: one limit for all", {.noise = kInfinity}},
                                         {"spikes stay", {.spike = kInfinity}},

@@ -111,11 +111,6 @@ void AreaGrowth::add_wide(const Mesh& mesh, const Point* vertices, const std::ui
   }
 }
 
-double AreaGrowth::usual_size4(double points, const AutomaticConstants& constants) const {
-  const double log = std::log(points);
-  return fourth_power(constants.usual) * log * log * unit4_ * kInCell;
-}
-
 double AreaGrowth::steadiest_size4(double points, double doubt, const AutomaticConstants& constants) const {
   constexpr double kLeast = 1.2;  // for s, in median sizes of the sample
   constexpr double kMost = 8;

@@ -47,15 +47,13 @@ class AreaGrowth {
               const std::vector<double>& usual4_of_block);
   bool is_empty() const { return samples_.empty(); }
 
-  /// Chooses the grid's unit, and sorts the sample into it. Needs a triangle, as the next three.
+  /// Chooses the grid's unit, and sorts the sample into it. Needs a triangle, as the next two.
   void sum_up();
   /// If the sample stands for all triangles but those that are wide: adds these, few, which are all looked
   /// at. `is_tested` as in AutomaticLimit::choose_found; `points`: of the whole mesh, without repeats.
   void add_wide(const Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested,
                 const SizeField& field, const std::vector<double>& usual4_of_block, double wide_radius,
                 double points, ThreadPool& pool);
-  /// The fourth power of the usual place of s, in usual sizes, among so many points.
-  double usual_size4(double points, const AutomaticConstants& constants) const;
   /// The fourth power of the s of the rule, in usual sizes, among so many points. `doubt`: what the pull on
   /// larger sizes is divided by.
   double steadiest_size4(double points, double doubt, const AutomaticConstants& constants) const;

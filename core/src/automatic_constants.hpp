@@ -18,18 +18,17 @@ struct AutomaticConstants {
   double noise = 0.12;    ///< standard deviation, by chance alone, of the logarithm of a usual size
   std::size_t smoothed_from = 16;  ///< with fewer blocks none is moved towards its neighbours
 
-  double usual = 0.667;      ///< the usual limit, in median sizes times sqrt(log n)
-  double pull = 10.9;        ///< the cost of a limit away from it, times n^(-1/5)
-  double even_sizes = 0.52;  ///< most scatter of the sizes in a block without clusters
-  double even_edges = 0.62;  ///< most scatter of the shortest edges of its triangles
-  double doubt = 100;        ///< how strongly more scatter weakens the pull on larger limits
-  double still = 0.018;      ///< a growth of the area that counts as none
-  std::size_t below = 3;     ///< the growth is measured over this many cells of the grid below a limit
-  std::size_t above = 6;     ///< and this many above it
-  double spike = 1.57;       ///< the size from which a triangle may be a spike
-  double part = 2.4;         ///< a part has at least this many times log n triangles
-  double wide = kWide;       ///< a hole has a triangle whose circle would hold log n + wide points or more
-  double step = 3;           ///< neighbours on an outline are at most log n + step mean distances apart
+  double usual = 0.667;   ///< the usual limit, in median sizes times sqrt(log n)
+  double pull = 10.9;     ///< the cost of a limit away from it, times n^(-1/5)
+  double even = 0.33;     ///< most scatter of the spacings where the density varies smoothly
+  double doubt = 80;      ///< how strongly more scatter weakens the pull on larger limits
+  double still = 0.018;   ///< a growth of the area that counts as none
+  std::size_t below = 3;  ///< the growth is measured over this many cells of the grid below a limit
+  std::size_t above = 6;  ///< and this many above it
+  double spike = 1.57;    ///< the size from which a triangle may be a spike
+  double part = 2.4;      ///< a part has at least this many times log n triangles
+  double wide = kWide;    ///< a hole has a triangle whose circle would hold log n + wide points or more
+  double step = 3;        ///< neighbours on an outline are at most log n + step mean distances apart
 };
 
 inline double fourth_power(double x) {

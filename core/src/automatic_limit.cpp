@@ -8,10 +8,10 @@
 #include <span>
 #include <utility>
 
-#include "clusters.hpp"
 #include "kernels.hpp"
 #include "outline_steps.hpp"
 #include "quantile.hpp"
+#include "spacing_scatter.hpp"
 
 namespace polylidar::detail {
 
@@ -144,8 +144,8 @@ bool AutomaticLimit::find_one(const PointPasses& points, const Box& box, ThreadP
   return !areas_.is_empty();
 }
 
-/// Whether places can have sizes of their own: their windows tell them, and show neither outlines nor
-/// clusters.
+/// Whether places can have sizes of their own: their windows tell them, and show neither outlines nor uneven
+/// points.
 bool AutomaticLimit::find_places(const PointPasses& points, ThreadPool& pool,
                                  const AutomaticConstants& constants) {
   const double in_circle = std::log(static_cast<double>(points.points)) + AutomaticConstants::kWide;
@@ -166,7 +166,7 @@ bool AutomaticLimit::find_places(const PointPasses& points, ThreadPool& pool,
       std::count_if(windows_.triangles().begin(), windows_.triangles().end(),
                     [](const auto& one) { return is_flat(one.twice_area, one.squared_longest); });
   if (2 * static_cast<std::size_t>(flat) >= windows_.triangles().size()) return false;  // maybe outlines
-  if (excess_scatter(windows_, constants) > 0) return false;                            // clusters
+  if (excess_scatter(windows_.spacings4(), points_, constants) > 0) return false;
   doubt_ = 1;
   for (const auto& [place, neighbour] : windows_.borders()) {
     sizes_.borders(0).push_back({place, neighbour, 0});
@@ -234,8 +234,8 @@ void AutomaticLimit::choose_by_blocks(const DelaunayBuilder& builder, double det
   areas_.sample(sized, field_.block_of_vertex, sizes_.usual4());
   if (!areas_.is_empty()) {
     areas_.sum_up();
-    const UsualLimit usual{field_.block_of_vertex, sizes_.usual4(), areas_.usual_size4(points, constants)};
-    doubt_ = 1 + constants.doubt * excess_scatter(sized, blocks_, usual, constants);
+    doubt_ = 1 + constants.doubt *
+                     excess_scatter(sized, field_.block_of_vertex, sizes_.usual4(), points, constants);
   }
   set_field(points, detail, constants);
   look_for_outlines(sized, points, detail, constants.step);

@@ -35,10 +35,10 @@ enum class SizesBy : std::uint8_t {
 /// **The limit.** How many usual sizes it is depends on how the area of all triangles up to a size grows with
 /// that size (AreaGrowth). `detail` divides it.
 ///
-/// **Clusters.** If points cluster, the voids between the clusters are ordinary, though they are larger than
-/// voids elsewhere. So the usual limit is less reliable. Points count as clustered if lengths in a block
-/// scatter more than without clusters (excess_scatter). Then the pull on larger limits is divided by 1 plus
-/// `doubt` times the excess scatter.
+/// **Uneven points.** If the spacing of the points changes from one to the next by more than chance makes it,
+/// as in clusters, the voids between them are ordinary, though they are larger than voids elsewhere. So the
+/// usual limit is less reliable. Then the pull on larger limits is divided by 1 plus `doubt` times the excess
+/// (excess_scatter).
 ///
 /// **Places.** Of many points whose density varies by a few times, the usual sizes come from small windows,
 /// as one size for all places does: one window for each of up to 4096 squares instead of blocks
