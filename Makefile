@@ -251,9 +251,9 @@ test-sanitize: ## install, build and run the core's tests with address, undefine
 	@$(call build,sanitize-threads)
 	@ctest --preset sanitize-threads
 
-build-clang: ## build everything with clang, the second compiler, in build-clang
+build-clang: ## build everything with clang, the second compiler, in build-clang, each file alone (TOGETHER=1: several at once, in half the time)
 	@$(call install,build unit python lint)
-	@$(call build,clang,$(WITH_TESTS))
+	@$(call build,clang,$(WITH_TESTS) $(if $(filter-out 0,$(TOGETHER)),-DCMAKE_DISABLE_PRECOMPILE_HEADERS=OFF -DHULLBENCH_COMPILE_TOGETHER=ON))
 
 test-clang: ## the tests of the clang build
 	@$(call install,build bench unit test docs python lint gdal)

@@ -35,15 +35,19 @@ if(HULLBENCH_NATIVE)
   target_compile_options(hullbench_compile_options INTERFACE -march=native)
 endif()
 
+option(HULLBENCH_COMPILE_TOGETHER "Compile several files of a library or a test in one go; OFF: each file alone" ON)
+mark_as_advanced(HULLBENCH_COMPILE_TOGETHER)
+
 # hullbench_compile_together(target [count]): compiles twelve, or so many, files of the target in one go, since most of the time
 # goes into the headers that they share. So two of its files may not use one name for two things, not even in unnamed
-# namespaces. The clang build compiles each file alone, which shows that it includes what it needs. Not for a method that is timed.
+# namespaces. Without it (make build-clang) each file is compiled alone, which shows that it includes what it needs. Not for a
+# method that is timed.
 function(hullbench_compile_together target)
   set(count 12)
   if(ARGC GREATER 1)
     set(count ${ARGV1})
   endif()
-  if(NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
+  if(HULLBENCH_COMPILE_TOGETHER)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${count})
   endif()
 endfunction()
