@@ -148,26 +148,38 @@ double median_of(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+/// The logarithm of the 0.85 quantile over the median; 0 if that is infinite.
+double plain_scatter(std::vector<double> lengths) {
+  std::sort(lengths.begin(), lengths.end());
+  const double median = lengths[lengths.size() / 2];
+  return std::isinf(median) ? 0 : std::log(lengths[85 * lengths.size() / 100] / median);
+}
+
 /// By how much spacings scatter too much: of each triangle its first corner counts, and of the triangles
-/// round this corner the third smallest.
-double plain_excess(const Triangulation& mesh, const std::vector<double>& sizes, double points,
-                    const detail::AutomaticConstants& constants) {
+/// round this corner the third smallest. Its nearest neighbours must scatter, too.
+double plain_excess(const std::vector<Point>& points, const Triangulation& mesh,
+                    const std::vector<double>& sizes, const detail::AutomaticConstants& constants) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::map<std::uint32_t, std::vector<double>> sizes_at;
   for (std::size_t e = 0; e < mesh.triangles.size(); ++e) sizes_at[mesh.triangles[e]].push_back(sizes[e / 3]);
   std::vector<double> spacings;
+  std::vector<double> nearest;
   for (std::size_t t = 0; t < sizes.size(); ++t) {
-    std::vector<double> round = sizes_at[mesh.triangles[3 * t]];
-    round.resize(std::max<std::size_t>(round.size(), 3), std::numeric_limits<double>::infinity());
+    const std::uint32_t corner = mesh.triangles[3 * t];
+    std::vector<double> round = sizes_at[corner];
+    round.resize(std::max<std::size_t>(round.size(), 3), kInfinity);
     std::sort(round.begin(), round.end());
     spacings.push_back(round[2]);
+    nearest.push_back(kInfinity);
+    for (const Point& other : points) {
+      const double apart = testing::distance(other, points[corner]);
+      if (apart > 0) nearest.back() = std::min(nearest.back(), apart);
+    }
   }
-  std::sort(spacings.begin(), spacings.end());
-  const std::size_t count = spacings.size();
-  const double median = spacings[count / 2];
-  if (std::isinf(median)) return 0;
-  const double scatter = std::log(spacings[85 * count / 100] / median);
-  return std::max(scatter - constants.even - 1.6 / std::sqrt(std::min(points, static_cast<double>(count))),
-                  0.0);
+  const auto count = static_cast<double>(std::min(points.size(), spacings.size()));
+  const double by_chance = 1.6 / std::sqrt(count);
+  if (plain_scatter(nearest) - by_chance < 0.34) return 0;
+  return std::max(plain_scatter(spacings) - constants.even - by_chance, 0.0);
 }
 
 /// The size of the least cost for points that make one block.
@@ -204,7 +216,7 @@ double plain_size(const std::vector<Point>& points, const detail::AutomaticConst
   double least_cost = std::numeric_limits<double>::infinity();
   const auto count = static_cast<double>(points.size());
   const double usual = constants.usual * std::sqrt(std::log(count)) * median;
-  const double excess = 2 * flat >= sizes.size() ? 0 : plain_excess(mesh, sizes, count, constants);
+  const double excess = 2 * flat >= sizes.size() ? 0 : plain_excess(points, mesh, sizes, constants);
   const double doubt = 1 + constants.doubt * excess;
   double best = usual;
   const int below = static_cast<int>(constants.below);

@@ -163,8 +163,10 @@ TEST(LimitFit, ASmallFitGivesTheSameEveryTimeAndFindsLittleToImprove) {
     changed.usual *= factor;
     EXPECT_GT(tune::limit_score(cases, changed, {}), climbs[0].score_to + 0.02) << factor;
   }
-  EXPECT_LT(climbs[0].score_from, climbs[1].score_from);
-  EXPECT_LT(climbs[0].score_from, climbs[2].score_from);
+  // A single random start may suit these few cases.
+  const double of_random_starts =
+      (climbs[1].score_from + climbs[2].score_from + other[1].score_from + other[2].score_from) / 4;
+  EXPECT_LT(climbs[0].score_from + 0.02, of_random_starts);
 }
 
 TEST(LimitFit, EachWayToSampleIsLeftOutOnce) {
