@@ -18,15 +18,19 @@ struct Scatter {
   double by_chance;
 };
 
+/// Of a scatter at so many points.
+double by_chance(double points) {
+  constexpr double kThreeDeviations = 1.6;
+  return kThreeDeviations / std::sqrt(points);
+}
+
 /// Of lengths at some of so many points, at least one length, as fourth powers; may reorder them.
 Scatter scatter_of(std::vector<double>& lengths4, double points) {
-  constexpr double kLarge = 0.85;    // among the larger ones are those of outliers
-  constexpr double kByChance = 1.6;  // times the root of the number of points looked at
-  const double looked_at = std::min(points, static_cast<double>(lengths4.size()));
-  const double by_chance = kByChance / std::sqrt(looked_at);
+  constexpr double kLarge = 0.85;  // among the larger ones are those of outliers
+  const double deviations = by_chance(std::min(points, static_cast<double>(lengths4.size())));
   const double median = quantile_of(lengths4, 0.5);
-  if (!(median > 0) || !std::isfinite(median)) return {0, by_chance};
-  return {std::log(quantile_of(lengths4, kLarge) / median) / 4, by_chance};
+  if (!(median > 0) || !std::isfinite(median)) return {0, deviations};
+  return {std::log(quantile_of(lengths4, kLarge) / median) / 4, deviations};
 }
 
 double excess(const Scatter& scatter, const AutomaticConstants& constants) {
@@ -90,7 +94,8 @@ double excess_scatter(const SizedMesh& sized, std::span<const std::uint32_t> blo
   };
   if (look_at(sized, block_of_vertex, usual4, kAtFirst, spacing4_of, lengths4)) return 0;
   const Scatter first = scatter_of(lengths4, points);
-  if (first.value + first.by_chance < constants.even) return 0;
+  const double of_most = by_chance(std::min(points, static_cast<double>(kMost)));
+  if (first.value + first.by_chance < constants.even + of_most) return 0;
   if (look_at(sized, block_of_vertex, usual4, kMost, spacing4_of, lengths4)) return 0;
   const double of_spacings = excess(scatter_of(lengths4, points), constants);
   if (of_spacings == 0) return 0;
