@@ -144,8 +144,7 @@ bool AutomaticLimit::find_one(const PointPasses& points, const Box& box, ThreadP
   return !areas_.is_empty();
 }
 
-/// Whether places can have sizes of their own: their windows tell them, and show neither outlines nor uneven
-/// points.
+/// Whether places can have sizes of their own: their windows tell them, and show no outlines.
 bool AutomaticLimit::find_places(const PointPasses& points, ThreadPool& pool,
                                  const AutomaticConstants& constants) {
   const double in_circle = std::log(static_cast<double>(points.points)) + AutomaticConstants::kWide;
@@ -166,7 +165,6 @@ bool AutomaticLimit::find_places(const PointPasses& points, ThreadPool& pool,
       std::count_if(windows_.triangles().begin(), windows_.triangles().end(),
                     [](const auto& one) { return is_flat(one.twice_area, one.squared_longest); });
   if (2 * static_cast<std::size_t>(flat) >= windows_.triangles().size()) return false;  // maybe outlines
-  if (excess_scatter(windows_.spacings4(), points_, constants) > 0) return false;
   doubt_ = 1;
   for (const auto& [place, neighbour] : windows_.borders()) {
     sizes_.borders(0).push_back({place, neighbour, 0});

@@ -1,8 +1,10 @@
 #include "spacing_scatter.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <vector>
 
 #include "outline_steps.hpp"
 #include "quantile.hpp"
@@ -24,17 +26,40 @@ double by_chance(double points) {
   return kThreeDeviations / std::sqrt(points);
 }
 
-/// Of lengths at some of so many points, at least one length, as fourth powers; may reorder them.
+/// Of finite lengths at some of so many points, as fourth powers; may reorder them.
 Scatter scatter_of(std::vector<double>& lengths4, double points) {
   constexpr double kLarge = 0.85;  // among the larger ones are those of outliers
+  if (lengths4.empty()) return {0, 0};
   const double deviations = by_chance(std::min(points, static_cast<double>(lengths4.size())));
   const double median = quantile_of(lengths4, 0.5);
-  if (!(median > 0) || !std::isfinite(median)) return {0, deviations};
+  if (median == 0) return {0, deviations};
   return {std::log(quantile_of(lengths4, kLarge) / median) / 4, deviations};
 }
 
 double excess(const Scatter& scatter, const AutomaticConstants& constants) {
   return std::max(scatter.value - scatter.by_chance - constants.even, 0.0);
+}
+
+/// The fourth power of the spacing at the start of half-edge `e`; infinity where fewer than three triangles
+/// meet.
+double spacing4_at(const SizedMesh& sized, Mesh::Index e) {
+  const Mesh& mesh = sized.mesh;
+  double first = std::numeric_limits<double>::infinity();
+  double second = first;
+  double third = first;
+  Mesh::Index turned = e;
+  do {
+    const Mesh::Index t = Mesh::triangle_of(turned);
+    // NaN of a ghost, which is what std::max returns then, and std::min does not.
+    const double size4 = sized.size4 != nullptr ? sized.size4[t]
+                         : mesh.is_ghost(t)     ? std::numeric_limits<double>::quiet_NaN()
+                                                : sized.triangle(t).size4();
+    third = std::min(third, std::max(size4, second));
+    second = std::min(second, std::max(size4, first));
+    first = std::min(first, size4);
+    turned = mesh.twin(Mesh::previous(turned));
+  } while (turned != e);
+  return third;
 }
 
 /// The fourth power of the distance from the start of half-edge `e` to the nearest other vertex.
@@ -52,7 +77,7 @@ double nearest4_at(const SizedMesh& sized, Mesh::Index e) {
 }
 
 /// Fills `lengths4` with length4_at(half-edge), in usual sizes, at the first corners of about so many
-/// triangles. Returns whether half of these triangles are flat.
+/// triangles, as far as it is finite. Returns whether half of these triangles are flat.
 template <class Length4At>
 bool look_at(const SizedMesh& sized, std::span<const std::uint32_t> block_of_vertex,
              std::span<const double> usual4, Mesh::Index triangles, const Length4At& length4_at,
@@ -60,38 +85,33 @@ bool look_at(const SizedMesh& sized, std::span<const std::uint32_t> block_of_ver
   const Mesh& mesh = sized.mesh;
   for (Mesh::Index step = (mesh.triangle_count() / triangles) | 1U;; step = 1) {
     lengths4.clear();
+    std::size_t looked_at = 0;
     std::size_t flat = 0;
     for (std::size_t i = 0; i < mesh.triangle_count(); i += step) {
       const auto t = static_cast<Mesh::Index>(i);
       if (mesh.is_ghost(t)) continue;
       const Mesh::Index corner = Mesh::kStride * t;
-      lengths4.push_back(length4_at(corner) / usual4[block_of_vertex[mesh.origin(corner)]]);
+      const double length4 = length4_at(corner) / usual4[block_of_vertex[mesh.origin(corner)]];
+      if (std::isfinite(length4)) lengths4.push_back(length4);
+      ++looked_at;
       const Triangle triangle = sized.triangle(t);
       flat += is_flat(triangle.twice_area(), triangle.squared_longest_edge()) ? 1U : 0U;
     }
-    if (step == 1 || lengths4.size() >= triangles / 4) return 2 * flat >= lengths4.size();
+    if (step == 1 || looked_at >= triangles / 4) return 2 * flat >= looked_at;
   }
 }
 
 }  // namespace
 
-double excess_scatter(std::vector<double> spacings4, double points, const AutomaticConstants& constants) {
-  return spacings4.empty() ? 0 : excess(scatter_of(spacings4, points), constants);
-}
-
 double excess_scatter(const SizedMesh& sized, std::span<const std::uint32_t> block_of_vertex,
                       std::span<const double> usual4, double points, const AutomaticConstants& constants) {
   constexpr Mesh::Index kAtFirst = 256;  // enough where points are clearly even
   constexpr Mesh::Index kMost = 1024;
-  constexpr double kLeastOfNearest = 0.34;  // points at random have 0.50
+  // On a grid a neighbour is one step away or a diagonal: log sqrt(2). Points at random have 0.50.
+  constexpr double kLeastOfNearest = 0.347;
   std::vector<double> lengths4;
   lengths4.reserve(2 * kMost);
-  const auto spacing4_of = [&](Mesh::Index corner) {
-    return spacing4_at(sized.mesh, corner, [&](Mesh::Index t) {
-      if (sized.size4 != nullptr) return sized.size4[t];
-      return sized.mesh.is_ghost(t) ? std::numeric_limits<double>::quiet_NaN() : sized.triangle(t).size4();
-    });
-  };
+  const auto spacing4_of = [&](Mesh::Index corner) { return spacing4_at(sized, corner); };
   if (look_at(sized, block_of_vertex, usual4, kAtFirst, spacing4_of, lengths4)) return 0;
   const Scatter first = scatter_of(lengths4, points);
   const double of_most = by_chance(std::min(points, static_cast<double>(kMost)));

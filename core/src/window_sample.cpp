@@ -10,7 +10,6 @@
 #include "filter_rules.hpp"
 #include "quantile.hpp"
 #include "selected.hpp"
-#include "spacing_scatter.hpp"
 #include "vector.hpp"
 
 namespace polylidar::detail {
@@ -68,35 +67,27 @@ bool WindowSample::look(const PointPasses& points, const Box& box, const Wanted&
   if (gathered > most) return false;
   margin_ = wanted.margin * spacing;
   for (Window& window : windows_) window.half_inner = kHalfInner * spacing;
-  measure_windows(wanted.quantile, false, pool);
+  measure_windows(wanted.quantile, pool);
   return true;
 }
 
-/// `has_spacings`: whether spacings4() is wanted.
-void WindowSample::measure_windows(double quantile, bool has_spacings, ThreadPool& pool) {
+void WindowSample::measure_windows(double quantile, ThreadPool& pool) {
   const auto begin_of = [&](std::size_t share) { return windows_.size() * share / shares_.size(); };
   pool.for_each(shares_.size(), [&](std::size_t s) {
     shares_[s].triangles.clear();
-    shares_[s].spacings4.clear();
     for (std::size_t w = begin_of(s); w < begin_of(s + 1); ++w) {
       const std::size_t before = shares_[s].triangles.size();
       measure(windows_[w], quantile, shares_[s]);
-      if (w % kept_step() != 0) {
-        shares_[s].triangles.resize(before);
-      } else if (has_spacings) {
-        measure_spacings(windows_[w], shares_[s]);
-      }
+      if (w % kept_step() != 0) shares_[s].triangles.resize(before);
     }
   });
   window_ends_.clear();
   triangles_.clear();
-  spacings4_.clear();
   usual4_.clear();
   std::size_t gathered = 0;
   std::size_t distinct = 0;
   for (const Share& share : shares_) {
     triangles_.insert(triangles_.end(), share.triangles.begin(), share.triangles.end());
-    spacings4_.insert(spacings4_.end(), share.spacings4.begin(), share.spacings4.end());
   }
   std::size_t end = 0;
   for (std::size_t w = 0; w < windows_.size(); ++w) {
@@ -119,7 +110,7 @@ bool WindowSample::look_by_places(const PointPasses& points, const WantedPlaces&
       points, most, [&](std::uint32_t cell) { return window_of_cell_[cell] != kNone; },
       [&](std::uint32_t cell, const auto& visit) { visit(window_of_cell_[cell]); });
   if (gathered > most) return false;
-  measure_windows(wanted.quantile, true, pool);
+  measure_windows(wanted.quantile, pool);
   places_.clear();
   for (std::size_t w = 0; w < windows_.size(); ++w) {
     const Window& window = windows_[w];
@@ -450,7 +441,6 @@ void WindowSample::measure(Window& window, double quantile, Share& share) {
   window.triangles = 0;
   window.usual4.reset();
   window.distinct = window.points.size();
-  share.corners.clear();
   if (window.points.size() < 3) return;
   share.builder.build(window.points, share.this_thread);
   const Mesh& mesh = share.builder.mesh();
@@ -469,7 +459,6 @@ void WindowSample::measure(Window& window, double quantile, Share& share) {
     const double x = std::abs(triangle.a.x + centre.x - window.centre.x);
     const double y = std::abs(triangle.a.y + centre.y - window.centre.y);
     if (!(std::max(x, y) <= window.half_inner)) continue;
-    share.corners.push_back(Mesh::kStride * t);
     share.triangles.push_back(
         {triangle.size4(), triangle.twice_area(), squared_length(centre), triangle.squared_longest_edge()});
   }
@@ -481,19 +470,6 @@ void WindowSample::measure(Window& window, double quantile, Share& share) {
   for (std::size_t t = first; t < share.triangles.size(); ++t)
     share.sizes4.push_back(share.triangles[t].size4);
   window.usual4 = quantile_of(share.sizes4, quantile);
-}
-
-/// Of the window that was measured last.
-void WindowSample::measure_spacings(const Window& window, Share& share) {
-  if (!window.usual4) return;
-  const Mesh& mesh = share.builder.mesh();
-  const auto size4_of = [&](Mesh::Index t) {
-    return mesh.is_ghost(t) ? std::numeric_limits<double>::quiet_NaN()
-                            : Triangle(mesh, share.builder.vertices(), t).size4();
-  };
-  for (const Mesh::Index corner : share.corners) {
-    share.spacings4.push_back(spacing4_at(mesh, corner, size4_of) / *window.usual4);
-  }
 }
 
 }  // namespace polylidar::detail

@@ -73,12 +73,9 @@ class WindowSample {
   /// large where the points are sparse as wide ones are where they are densest. The result depends on the
   /// same as that of look(). O(n), a pass.
   bool look_by_places(const PointPasses& points, const WantedPlaces& wanted, ThreadPool& pool);
-  /// After look_by_places() returned true, as the next three: place -> what was found in its window, which
-  /// has the same number.
+  /// After look_by_places() returned true, as the next two: place -> what was found in its window, which has
+  /// the same number.
   const std::vector<Place>& places() const { return places_; }
-  /// At the first corners of the triangles in triangles(): the fourth powers of the spacings (spacing4_at),
-  /// in usual sizes of the windows.
-  const std::vector<double>& spacings4() const { return spacings4_; }
   /// The pairs of places with points in cells that touch.
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& borders() const { return borders_; }
   /// Puts the place of each of `some` of the points into `places`, which has room for them; kNone for one
@@ -112,8 +109,6 @@ class WindowSample {
   struct Share {
     std::vector<std::pair<std::uint32_t, Point>> gathered;  ///< window and point
     std::vector<Measured> triangles;                        ///< of its windows, in order
-    std::vector<double> spacings4;                          ///< the same
-    std::vector<Mesh::Index> corners;                       ///< the first ones of a window's triangles
     DelaunayBuilder builder;
     std::vector<double> sizes4;
     ThreadPool this_thread;
@@ -142,9 +137,8 @@ class WindowSample {
   template <class IsReached, class ForEachWindow>
   std::size_t gather(const PointPasses& points, std::size_t most, const IsReached& is_reached,
                      const ForEachWindow& for_each_window);
-  void measure_windows(double quantile, bool has_spacings, ThreadPool& pool);
+  void measure_windows(double quantile, ThreadPool& pool);
   static void measure(Window& window, double quantile, Share& share);
-  static void measure_spacings(const Window& window, Share& share);
 
   std::uint32_t column(double x) const {
     return static_cast<std::uint32_t>((x - minimum_.x) * cells_per_length_);
@@ -171,7 +165,6 @@ class WindowSample {
   std::deque<Share> shares_;
   std::vector<std::size_t> window_ends_;
   std::vector<Measured> triangles_;
-  std::vector<double> spacings4_;
   std::vector<double> usual4_;
   std::vector<Place> places_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> borders_;
