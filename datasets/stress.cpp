@@ -62,6 +62,8 @@ const std::vector<StressKind>& stress_kinds() {
        &sample_hotspot},
       {"clusters", "clusters", "", "points in a Gaussian cluster on average", 1, 1000, kDraws,
        &sample_clusters},
+      {"cascade", "cascade", "", "density in one half of each part over that in the other, ten times halved",
+       1, 4, kDraws, &sample_cascade},
       {"poisson", "Poisson disks", "h", "least distance of two points", 0.25, 0.75, kDraws, &sample_poisson},
       {"lattice", "lattice", "", "largest move of a lattice's points, in its sides", 0, 0.5, kDraws,
        &sample_lattice},

@@ -28,6 +28,7 @@ SAMPLERS = (
     "gradient:64",
     "hotspot:64",
     "clusters:16",
+    "cascade:3",
     "depthcamera:4",
     "airborne:4",
     "zigzag:4",
@@ -37,6 +38,7 @@ SAMPLERS = (
     "quantised:1",
     "outline:3",
     "transcripts:3",
+    "boundary:30",
     "gradient:16~outliers:3~noise:0.5",
 )
 
@@ -51,7 +53,7 @@ def points_of(program: Path, sampler: str) -> np.ndarray:
 def draw(program: Path, out: Path) -> None:
     outline = json.loads((ROOT / "datasets" / "shapes" / "ca.geojson").read_text())
     rings = [polygon[0] for polygon in outline["geometry"]["coordinates"]]
-    figure, panels = plt.subplots(4, 4, figsize=(11, 12.4), constrained_layout=True)
+    figure, panels = plt.subplots(3, 6, figsize=(16, 9.6), constrained_layout=True)
     for sampler, panel in zip(SAMPLERS, panels.flat):
         points = points_of(program, sampler)
         for ring in rings:

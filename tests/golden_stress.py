@@ -157,6 +157,25 @@ def hotspot(shape: Shape, n: int, level: float, seed: int) -> list[Point]:
     return points
 
 
+def cascade(shape: Shape, n: int, level: float, seed: int) -> list[Point]:
+    random, points = Random(derived_seed(seed, "cascade")), []
+    frame = Frame(shape, random.uniform())
+    is_second_dense = [random.below(2) == 1 for _ in range(1024)]
+    while len(points) < n:
+        low, high, part = list(frame.low), list(frame.high), 1
+        for halving in range(10):
+            axis = halving % 2
+            is_second = (random.uniform() < level / (level + 1)) == is_second_dense[part]
+            middle = low[axis] + (high[axis] - low[axis]) / 2
+            (low if is_second else high)[axis] = middle
+            part = 2 * part + is_second
+        x = random.between(low[0], high[0])
+        point = frame.in_plane(x, random.between(low[1], high[1]))
+        if shape.contains(point):
+            points.append(point)
+    return points
+
+
 def transcripts(shape: Shape, n: int, level: float, seed: int) -> list[Point]:
     uniform, random, points = shape.uniform(seed), Random(derived_seed(seed, "transcripts")), []
     nucleus = next(shape.uniform(derived_seed(seed, "place")))
@@ -343,7 +362,7 @@ def make_points(name: str, shape: Shape) -> list[Point]:
         points = [point for point, _ in zip(dry, range(drawn))]
     else:
         ((kind, level),) = levels.items()
-        draw = {"gradient": gradient, "hotspot": hotspot, "transcripts": transcripts}.get(kind)
+        draw = {"gradient": gradient, "hotspot": hotspot, "cascade": cascade, "transcripts": transcripts}.get(kind)
         asked, points = drawn, []
         while True:
             points = draw(shape, asked, level, seed) if draw else scanned(kind, shape, asked, level, seed)
@@ -371,7 +390,7 @@ def main(arguments: list[str]) -> int:
     entries = {entry["name"]: entry for entry in json.loads((SHAPES / "manifest.json").read_text())["shapes"]}
     golden = dict(re.findall(r'\{"([^"]+)",\s*"([0-9a-f]{64})"\}', EXPECTATIONS.read_text()))
     check = arguments[:1] == ["--check"]
-    known = {"gradient", "hotspot", "transcripts", *SCANNED, *CHANGES}
+    known = {"gradient", "hotspot", "cascade", "transcripts", *SCANNED, *CHANGES}
 
     def is_known(name: str) -> bool:
         base, *stresses = name.split("~")

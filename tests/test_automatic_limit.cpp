@@ -148,13 +148,16 @@ double median_of(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// By how much the logarithm of the 0.85 quantile over the median is beyond what chance may add.
-double plain_scatter(std::vector<double> lengths, std::size_t points) {
+/// By how much the logarithm of one quantile over another is beyond what chance may add.
+double plain_scatter(std::vector<double> lengths, std::size_t points, double small, double large,
+                     double three_deviations) {
   if (lengths.empty()) return 0;
   std::sort(lengths.begin(), lengths.end());
-  const std::size_t count = lengths.size();
-  const double looked_at = static_cast<double>(std::min(points, count));
-  return std::log(lengths[85 * count / 100] / lengths[count / 2]) - 1.6 / std::sqrt(looked_at);
+  const auto quantile = [&](double share) {
+    return lengths[static_cast<std::size_t>(share * static_cast<double>(lengths.size()))];
+  };
+  const double looked_at = static_cast<double>(std::min(points, lengths.size()));
+  return std::log(quantile(large) / quantile(small)) - three_deviations / std::sqrt(looked_at);
 }
 
 /// By how much spacings scatter too much: of each triangle its first corner counts, and of the triangles
@@ -177,8 +180,8 @@ double plain_excess(const std::vector<Point>& points, const Triangulation& mesh,
       if (apart > 0) nearest.back() = std::min(nearest.back(), apart);
     }
   }
-  if (plain_scatter(nearest, points.size()) < 0.347) return 0;
-  return std::max(plain_scatter(spacings, points.size()) - constants.even, 0.0);
+  if (plain_scatter(nearest, points.size(), 0.5, 0.85, 1.6) < 0.347) return 0;
+  return std::max(plain_scatter(spacings, points.size(), 0.2, 0.6, 2.4) - constants.even, 0.0);
 }
 
 /// The size of the least cost for points that make one block.
@@ -517,6 +520,19 @@ TEST(AutomaticLimit, TakesPointsAtRandomForEven) {
     EXPECT_TRUE(are_uneven(clustered(3000, seed))) << seed;
   }
   EXPECT_LE(uneven, 4);  // of 80
+}
+
+// Outliers lie far apart, and the points of the shape do not. That is no reason to join them.
+TEST(AutomaticLimit, LeavesAFifthOfOutliersOut) {
+  int joined = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    std::vector<Point> points = testing::uniform_points(1600, seed);
+    for (const Point& outlier : testing::uniform_points(400, seed + 100)) {
+      points.push_back({1.6 * outlier.x - 0.3, 1.6 * outlier.y - 0.3});
+    }
+    joined += area(checked_hull(points)) > 1.5 ? 1 : 0;  // of 2.56
+  }
+  EXPECT_LE(joined, 2);  // of 20
 }
 
 // Roads are far apart, but the points along them are even, as receivers write them down at a fixed interval.

@@ -19,6 +19,7 @@
 #include "benchmarks/base/names.hpp"
 #include "datasets/datasets.hpp"
 #include "datasets/point_locator.hpp"
+#include "datasets/random.hpp"
 #include "datasets/samplers/density.hpp"
 #include "datasets/samplers/water.hpp"
 #include "datasets/sampling.hpp"
@@ -120,9 +121,9 @@ TEST(Stress, EveryKindIsCompleteAndNamedOnce) {
     }
   }
   EXPECT_EQ(names,
-            (std::set<std::string>{"airborne", "boundary", "clusters", "depthcamera", "gradient", "hotspot",
-                                   "lattice", "noise", "outliers", "outline", "poisson", "quantised",
-                                   "rotating", "tracks", "transcripts", "water", "zigzag"}));
+            (std::set<std::string>{"airborne", "boundary", "cascade", "clusters", "depthcamera", "gradient",
+                                   "hotspot", "lattice", "noise", "outliers", "outline", "poisson",
+                                   "quantised", "rotating", "tracks", "transcripts", "water", "zigzag"}));
 }
 
 TEST(Stress, AnyShapeCanBeSampledWithAnyKind) {
@@ -182,6 +183,7 @@ TEST(Stress, CountsAreExact) {
                                "outliers:20",
                                "gradient:16",
                                "clusters:16",
+                               "cascade:4",
                                "poisson:0.7",
                                "lattice:0",
                                "lattice:0.25",
@@ -209,9 +211,9 @@ TEST(Stress, CountsAreExact) {
 TEST(Stress, PointsLieInTheShapeWhereTheyMust) {
   for (const std::string& shape : kShapes) {
     const PointLocator locator(make_ground_truth(shape, false));
-    for (const char* stress : {"gradient:16", "hotspot:16", "clusters:16", "poisson:0.7", "lattice:0",
-                               "lattice:0.5", "airborne:10", "zigzag:10", "rotating:10", "tracks:10",
-                               "transcripts:0", "water:10", "zigzag:4~water:20"}) {
+    for (const char* stress : {"gradient:16", "hotspot:16", "clusters:16", "cascade:4", "poisson:0.7",
+                               "lattice:0", "lattice:0.5", "airborne:10", "zigzag:10", "rotating:10",
+                               "tracks:10", "transcripts:0", "water:10", "zigzag:4~water:20"}) {
       const std::vector<Point> points = points_of(shape + "~" + stress, 1000);
       EXPECT_TRUE(std::ranges::all_of(points, [&](const Point& point) { return locator.contains(point); }))
           << shape << "~" << stress;
@@ -316,6 +318,40 @@ TEST(Stress, HotSpotIsAGaussianOverItsBackground) {
       masses[i] = 4 + 2 * std::acos(-1.0) * (level - 1) * part(x, x + 2, middle.x) * part(y, y + 2, middle.y);
     }
     EXPECT_LT(chi_squared(counts, masses), 24 + 5 * std::sqrt(48)) << level;
+  }
+}
+
+TEST(Stress, CascadeHasItsDensity) {
+  constexpr std::size_t kCells = 4;    // a side
+  constexpr std::size_t kPlaces = 50;  // a side of a cell, at which the density is looked up
+  const MultiPolygon shape = square();
+  const polylidar::Box box = PointLocator(shape).bounds();
+  const double side = (box.max.x - box.min.x) / kCells;
+  for (const double level : {1.0, 2.0, 4.0}) {
+    std::vector<double> counts(kCells * kCells);
+    std::vector<double> masses(kCells * kCells);
+    for (const Point& point : sample("cascade", shape, 10'000, level)) {
+      const auto column = static_cast<std::size_t>((point.x - box.min.x) / side);
+      const auto row = static_cast<std::size_t>((point.y - box.min.y) / side);
+      counts[kCells * std::min(row, kCells - 1) + std::min(column, kCells - 1)] += 1;
+    }
+    Random random(derive_seed(7, "cascade"));
+    const Cascade cascade(shape, level, random);
+    double least = 1;
+    double most = 1;
+    for (std::size_t row = 0; row < kCells * kPlaces; ++row) {
+      for (std::size_t column = 0; column < kCells * kPlaces; ++column) {
+        const double x = box.min.x + side * (static_cast<double>(column) + 0.5) / kPlaces;
+        const double y = box.min.y + side * (static_cast<double>(row) + 0.5) / kPlaces;
+        const double density = cascade.density({x, y});
+        masses[kCells * (row / kPlaces) + column / kPlaces] += density;
+        least = std::min(least, density);
+        most = std::max(most, density);
+      }
+    }
+    EXPECT_LT(chi_squared(counts, masses), 15 + 5 * std::sqrt(30)) << level;
+    // Some place is on the denser side at most halvings, and another on the other.
+    EXPECT_GE(most / least, std::pow(level, 8)) << level;
   }
 }
 
@@ -543,6 +579,8 @@ TEST(Stress, GoldenSamples) {
   // was written.
   const std::map<std::string, std::string> expected{
       {"ca~boundary:100", "45409de926de8399e3fe18bc70e64ebb5028230cfaf6c172545e04d91e104b8c"},
+      {"ca~cascade:2", "26f5de6f8b36cb4f28b8f7569dae6276d148d5e101ec47032337aa379bfef53a"},
+      {"hi~cascade:4", "e3c3bb3eb6d0f9797490fa5d88083f42bf2c254b5b62541c6f976b51f145534c"},
       {"ca~clusters:4", "6a528cd51bfc82e0e5878024461d1fec4741d5abcb78f64359e8720b59ba4fb3"},
       {"ca~gradient:4", "843054ed0c363bde8cb0f00089cbbe3c6d404794667b1717950e6c10d4581618"},
       {"ca~lattice:0", "0c6c440c982acc508d1f99cdc4abb88f3948aae44f9379bac10795d0777d6275"},

@@ -85,17 +85,10 @@ std::string sampling_of(const std::string& dataset) {
 
 std::vector<LimitCaseName> training_limit_cases() {
   const std::vector<std::string> few = {"", "~gradient:16~outliers:3"};
-  const std::vector<std::string> all = {"",
-                                        "~gradient:16",
-                                        "~gradient:64",
-                                        "~outliers:3",
-                                        "~gradient:16~outliers:3",
-                                        "~noise:0.5",
-                                        "~poisson:0.7",
-                                        "~airborne:3",
-                                        "~airborne:8",
-                                        "~clusters:8",
-                                        "~clusters:16"};
+  const std::vector<std::string> all = {
+      "",           "~gradient:16", "~gradient:64", "~outliers:3", "~outliers:15", "~gradient:16~outliers:3",
+      "~noise:0.5", "~poisson:0.7", "~airborne:3",  "~airborne:8", "~clusters:8",  "~clusters:16",
+      "~cascade:2", "~cascade:3"};
   std::vector<LimitCaseName> names;
   for (const SplitRow& source : shape_split()) {
     if (source.side != Side::kTraining) continue;
@@ -122,6 +115,7 @@ std::vector<LimitCaseName> test_limit_cases(std::size_t n) {
                                                            "~gradient:64",
                                                            "~hotspot:12",
                                                            "~outliers:3",
+                                                           "~outliers:15",
                                                            "~gradient:16~outliers:3",
                                                            "~noise:0.5",
                                                            "~poisson:0.7",
@@ -137,6 +131,7 @@ std::vector<LimitCaseName> test_limit_cases(std::size_t n) {
                                                            "~boundary:20",
                                                            "~clusters:8",
                                                            "~clusters:16",
+                                                           "~cascade:2",
                                                            "~outline:0.1",
                                                            "~water:20"},
                                                           n);

@@ -77,6 +77,7 @@ const std::vector<SplitRow>& sampler_split() {
       {"uniform", kTraining, "The paper's sampling."},
       {"gradient", kTraining, "The plain example of a density that varies slowly."},
       {"clusters", kTraining, "The plain example of a density that varies fast."},
+      {"cascade", kTraining, "The plain example of a density that varies on all scales."},
       {"poisson", kTraining, "The plain example of points that are more even than chance."},
       {"noise", kTraining, "A fault that every sensor has."},
       {"outliers", kTraining, "A fault that most sensors have."},

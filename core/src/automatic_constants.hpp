@@ -21,7 +21,7 @@ struct AutomaticConstants {
   double usual = 0.667;   ///< the usual limit, in median sizes times sqrt(log n)
   double pull = 10.9;     ///< the cost of a limit away from it, times n^(-1/5)
   double even = 0.33;     ///< most scatter of the spacings where the density varies smoothly
-  double doubt = 80;      ///< how strongly more scatter weakens the pull on larger limits
+  double doubt = 160;     ///< how strongly more scatter weakens the pull on larger limits
   double still = 0.018;   ///< a growth of the area that counts as none
   std::size_t below = 3;  ///< the growth is measured over this many cells of the grid below a limit
   std::size_t above = 6;  ///< and this many above it

@@ -20,20 +20,28 @@ struct Scatter {
   double by_chance;
 };
 
-/// Of a scatter at so many points.
-double by_chance(double points) {
-  constexpr double kThreeDeviations = 1.6;
-  return kThreeDeviations / std::sqrt(points);
+/// How scatter is measured: as the logarithm of one quantile over another.
+struct Measure {
+  double small;
+  double large;
+  double
+      three_deviations;  ///< three standard deviations for points at random, times the root of their number
+};
+
+constexpr Measure kOfSpacings = {0.2, 0.6, 2.4};  // a fifth of outliers hardly changes these quantiles
+constexpr Measure kOfNearest = {0.5, 0.85, 1.6};
+
+double by_chance(const Measure& measure, double points) {
+  return measure.three_deviations / std::sqrt(points);
 }
 
 /// Of finite lengths at some of so many points, as fourth powers; may reorder them.
-Scatter scatter_of(std::vector<double>& lengths4, double points) {
-  constexpr double kLarge = 0.85;  // among the larger ones are those of outliers
+Scatter scatter_of(std::vector<double>& lengths4, double points, const Measure& measure) {
   if (lengths4.empty()) return {0, 0};
-  const double deviations = by_chance(std::min(points, static_cast<double>(lengths4.size())));
-  const double median = quantile_of(lengths4, 0.5);
-  if (median == 0) return {0, deviations};
-  return {std::log(quantile_of(lengths4, kLarge) / median) / 4, deviations};
+  const double chance = by_chance(measure, std::min(points, static_cast<double>(lengths4.size())));
+  const double small = quantile_of(lengths4, measure.small);
+  if (small == 0) return {0, chance};
+  return {std::log(quantile_of(lengths4, measure.large) / small) / 4, chance};
 }
 
 double excess(const Scatter& scatter, const AutomaticConstants& constants) {
@@ -113,15 +121,15 @@ double excess_scatter(const SizedMesh& sized, std::span<const std::uint32_t> blo
   lengths4.reserve(2 * kMost);
   const auto spacing4_of = [&](Mesh::Index corner) { return spacing4_at(sized, corner); };
   if (look_at(sized, block_of_vertex, usual4, kAtFirst, spacing4_of, lengths4)) return 0;
-  const Scatter first = scatter_of(lengths4, points);
-  const double of_most = by_chance(std::min(points, static_cast<double>(kMost)));
+  const Scatter first = scatter_of(lengths4, points, kOfSpacings);
+  const double of_most = by_chance(kOfSpacings, std::min(points, static_cast<double>(kMost)));
   if (first.value + first.by_chance < constants.even + of_most) return 0;
   if (look_at(sized, block_of_vertex, usual4, kMost, spacing4_of, lengths4)) return 0;
-  const double of_spacings = excess(scatter_of(lengths4, points), constants);
+  const double of_spacings = excess(scatter_of(lengths4, points, kOfSpacings), constants);
   if (of_spacings == 0) return 0;
   const auto nearest4_of = [&](Mesh::Index corner) { return nearest4_at(sized, corner); };
   look_at(sized, block_of_vertex, usual4, kMost, nearest4_of, lengths4);
-  const Scatter nearest = scatter_of(lengths4, points);
+  const Scatter nearest = scatter_of(lengths4, points, kOfNearest);
   return nearest.value - nearest.by_chance < kLeastOfNearest ? 0 : of_spacings;
 }
 

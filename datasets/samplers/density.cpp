@@ -77,4 +77,53 @@ std::vector<Point> sample_clusters(const MultiPolygon& shape, std::size_t n, dou
   return points;
 }
 
+Cascade::Cascade(const MultiPolygon& shape, double level, Random& random)
+    : frame_(shape, random.uniform()), dense_share_(level / (level + 1)) {
+  for (bool& is_second_dense : is_second_dense_) is_second_dense = random.below(2) == 1;
+}
+
+double Cascade::density(const Point& point) const {
+  Box box = frame_.bounds();
+  const Point at = frame_.in_frame(point);
+  double density = 1;
+  for (std::size_t part = 1, halving = 0; halving < kHalvings; ++halving) {
+    const bool is_across = halving % 2 == 0;
+    double& least = is_across ? box.min.x : box.min.y;
+    double& most = is_across ? box.max.x : box.max.y;
+    const double middle = least + (most - least) / 2;
+    const bool is_second = (is_across ? at.x : at.y) >= middle;
+    density *= 2 * (is_second == is_second_dense_[part] ? dense_share_ : 1 - dense_share_);
+    (is_second ? least : most) = middle;
+    part = 2 * part + (is_second ? 1 : 0);
+  }
+  return density;
+}
+
+Point Cascade::draw(Random& random) const {
+  Box box = frame_.bounds();
+  for (std::size_t part = 1, halving = 0; halving < kHalvings; ++halving) {
+    const bool is_across = halving % 2 == 0;
+    double& least = is_across ? box.min.x : box.min.y;
+    double& most = is_across ? box.max.x : box.max.y;
+    const bool is_second = (random.uniform() < dense_share_) == is_second_dense_[part];
+    (is_second ? least : most) = least + (most - least) / 2;
+    part = 2 * part + (is_second ? 1 : 0);
+  }
+  return frame_.in_plane(uniform_in(box, random));
+}
+
+std::vector<Point> sample_cascade(const MultiPolygon& shape, std::size_t n, double level,
+                                  std::uint64_t seed) {
+  Random random(derive_seed(seed, "cascade"));
+  const Cascade cascade(shape, level, random);
+  const PointLocator locator(shape);
+  std::vector<Point> points;
+  points.reserve(n);
+  while (points.size() < n) {
+    const Point point = cascade.draw(random);
+    if (locator.contains(point)) points.push_back(point);
+  }
+  return points;
+}
+
 }  // namespace hullbench
