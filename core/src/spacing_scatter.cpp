@@ -28,17 +28,16 @@ struct Measure {
       three_deviations;  ///< three standard deviations for points at random, times the root of their number
 };
 
+constexpr Mesh::Index kLookedAt = 1024;  // triangles, of more
+
 constexpr Measure kOfSpacings = {0.2, 0.6, 2.4};  // a fifth of outliers hardly changes these quantiles
 constexpr Measure kOfNearest = {0.5, 0.85, 1.6};
-
-double by_chance(const Measure& measure, double points) {
-  return measure.three_deviations / std::sqrt(points);
-}
 
 /// Of finite lengths at some of so many points, as fourth powers; may reorder them.
 Scatter scatter_of(std::vector<double>& lengths4, double points, const Measure& measure) {
   if (lengths4.empty()) return {0, 0};
-  const double chance = by_chance(measure, std::min(points, static_cast<double>(lengths4.size())));
+  const double looked_at = std::min(points, static_cast<double>(lengths4.size()));
+  const double chance = measure.three_deviations / std::sqrt(looked_at);
   const double small = quantile_of(lengths4, measure.small);
   if (small == 0) return {0, chance};
   return {std::log(quantile_of(lengths4, measure.large) / small) / 4, chance};
@@ -84,14 +83,13 @@ double nearest4_at(const SizedMesh& sized, Mesh::Index e) {
   return squared * squared;
 }
 
-/// Fills `lengths4` with length4_at(half-edge), in usual sizes, at the first corners of about so many
+/// Fills `lengths4` with length4_at(half-edge), in usual sizes, at the first corners of about `kLookedAt`
 /// triangles, as far as it is finite. Returns whether half of these triangles are flat.
 template <class Length4At>
 bool look_at(const SizedMesh& sized, std::span<const std::uint32_t> block_of_vertex,
-             std::span<const double> usual4, Mesh::Index triangles, const Length4At& length4_at,
-             std::vector<double>& lengths4) {
+             std::span<const double> usual4, const Length4At& length4_at, std::vector<double>& lengths4) {
   const Mesh& mesh = sized.mesh;
-  for (Mesh::Index step = (mesh.triangle_count() / triangles) | 1U;; step = 1) {
+  for (Mesh::Index step = (mesh.triangle_count() / kLookedAt) | 1U;; step = 1) {
     lengths4.clear();
     std::size_t looked_at = 0;
     std::size_t flat = 0;
@@ -105,7 +103,7 @@ bool look_at(const SizedMesh& sized, std::span<const std::uint32_t> block_of_ver
       const Triangle triangle = sized.triangle(t);
       flat += is_flat(triangle.twice_area(), triangle.squared_longest_edge()) ? 1U : 0U;
     }
-    if (step == 1 || looked_at >= triangles / 4) return 2 * flat >= looked_at;
+    if (step == 1 || looked_at >= kLookedAt / 4) return 2 * flat >= looked_at;
   }
 }
 
@@ -113,22 +111,16 @@ bool look_at(const SizedMesh& sized, std::span<const std::uint32_t> block_of_ver
 
 double excess_scatter(const SizedMesh& sized, std::span<const std::uint32_t> block_of_vertex,
                       std::span<const double> usual4, double points, const AutomaticConstants& constants) {
-  constexpr Mesh::Index kAtFirst = 256;  // enough where points are clearly even
-  constexpr Mesh::Index kMost = 1024;
   // On a grid a neighbour is one step away or a diagonal: log sqrt(2). Points at random have 0.50.
   constexpr double kLeastOfNearest = 0.347;
   std::vector<double> lengths4;
-  lengths4.reserve(2 * kMost);
+  lengths4.reserve(2 * kLookedAt);
   const auto spacing4_of = [&](Mesh::Index corner) { return spacing4_at(sized, corner); };
-  if (look_at(sized, block_of_vertex, usual4, kAtFirst, spacing4_of, lengths4)) return 0;
-  const Scatter first = scatter_of(lengths4, points, kOfSpacings);
-  const double of_most = by_chance(kOfSpacings, std::min(points, static_cast<double>(kMost)));
-  if (first.value + first.by_chance < constants.even + of_most) return 0;
-  if (look_at(sized, block_of_vertex, usual4, kMost, spacing4_of, lengths4)) return 0;
+  if (look_at(sized, block_of_vertex, usual4, spacing4_of, lengths4)) return 0;
   const double of_spacings = excess(scatter_of(lengths4, points, kOfSpacings), constants);
   if (of_spacings == 0) return 0;
   const auto nearest4_of = [&](Mesh::Index corner) { return nearest4_at(sized, corner); };
-  look_at(sized, block_of_vertex, usual4, kMost, nearest4_of, lengths4);
+  look_at(sized, block_of_vertex, usual4, nearest4_of, lengths4);
   const Scatter nearest = scatter_of(lengths4, points, kOfNearest);
   return nearest.value - nearest.by_chance < kLeastOfNearest ? 0 : of_spacings;
 }
