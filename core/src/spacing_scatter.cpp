@@ -13,19 +13,18 @@ namespace polylidar::detail {
 
 namespace {
 
-/// How much lengths scatter, and what chance may add to that or take from it: about three standard
-/// deviations.
+/// How much lengths scatter, and what chance may have added to that or taken from it.
 struct Scatter {
   double value;
   double by_chance;
 };
 
-/// How scatter is measured: as the logarithm of one quantile over another.
+/// How scatter is measured: as the logarithm of one quantile over another. Chance adds up to about
+/// `by_chance` / sqrt(lengths): three standard deviations of points at random.
 struct Measure {
   double small;
   double large;
-  double
-      three_deviations;  ///< three standard deviations for points at random, times the root of their number
+  double by_chance;
 };
 
 constexpr Mesh::Index kLookedAt = 1024;  // triangles, of more
@@ -37,7 +36,7 @@ constexpr Measure kOfNearest = {0.5, 0.85, 1.6};
 Scatter scatter_of(std::vector<double>& lengths4, double points, const Measure& measure) {
   if (lengths4.empty()) return {0, 0};
   const double looked_at = std::min(points, static_cast<double>(lengths4.size()));
-  const double chance = measure.three_deviations / std::sqrt(looked_at);
+  const double chance = measure.by_chance / std::sqrt(looked_at);
   const double small = quantile_of(lengths4, measure.small);
   if (small == 0) return {0, chance};
   return {std::log(quantile_of(lengths4, measure.large) / small) / 4, chance};
