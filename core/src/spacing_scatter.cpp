@@ -27,7 +27,7 @@ struct Measure {
   double by_chance;
 };
 
-constexpr Mesh::Index kLookedAt = 1024;  // triangles, of more
+constexpr Mesh::Index kMostSpacings = 1024;  // that are looked at
 
 constexpr Measure kOfSpacings = {0.2, 0.6, 2.4};  // a fifth of outliers hardly changes these quantiles
 constexpr Measure kOfNearest = {0.5, 0.85, 1.6};
@@ -82,13 +82,13 @@ double nearest4_at(const SizedMesh& sized, Mesh::Index e) {
   return squared * squared;
 }
 
-/// Fills `lengths4` with length4_at(half-edge), in usual sizes, at the first corners of about `kLookedAt`
+/// Fills `lengths4` with length4_at(half-edge), in usual sizes, at the first corners of about `kMostSpacings`
 /// triangles, as far as it is finite. Returns whether half of these triangles are flat.
 template <class Length4At>
 bool look_at(const SizedMesh& sized, std::span<const std::uint32_t> block_of_vertex,
              std::span<const double> usual4, const Length4At& length4_at, std::vector<double>& lengths4) {
   const Mesh& mesh = sized.mesh;
-  for (Mesh::Index step = (mesh.triangle_count() / kLookedAt) | 1U;; step = 1) {
+  for (Mesh::Index step = (mesh.triangle_count() / kMostSpacings) | 1U;; step = 1) {
     lengths4.clear();
     std::size_t looked_at = 0;
     std::size_t flat = 0;
@@ -102,7 +102,7 @@ bool look_at(const SizedMesh& sized, std::span<const std::uint32_t> block_of_ver
       const Triangle triangle = sized.triangle(t);
       flat += is_flat(triangle.twice_area(), triangle.squared_longest_edge()) ? 1U : 0U;
     }
-    if (step == 1 || looked_at >= kLookedAt / 4) return 2 * flat >= looked_at;
+    if (step == 1 || looked_at >= kMostSpacings / 4) return 2 * flat >= looked_at;
   }
 }
 
@@ -113,7 +113,7 @@ double excess_scatter(const SizedMesh& sized, std::span<const std::uint32_t> blo
   // On a grid a neighbour is one step away or a diagonal: log sqrt(2). Points at random have 0.50.
   constexpr double kLeastOfNearest = 0.347;
   std::vector<double> lengths4;
-  lengths4.reserve(2 * kLookedAt);
+  lengths4.reserve(2 * kMostSpacings);
   const auto spacing4_of = [&](Mesh::Index corner) { return spacing4_at(sized, corner); };
   if (look_at(sized, block_of_vertex, usual4, spacing4_of, lengths4)) return 0;
   const double of_spacings = excess(scatter_of(lengths4, points, kOfSpacings), constants);
