@@ -69,11 +69,10 @@ struct StressKind {
 ///            deviation h; a cluster has `level` points on average. Centres lie up to 6 h outside the
 ///            bounding box, so that the density does not fall towards the shape's boundary. (Thomas: A
 ///            Generalization of Poisson's Binomial Limit for Use in Ecology, Biometrika 36, 1949)
-/// cascade    The density varies by chance, on all scales down to a 32nd of the extent: the bounding box,
-/// turned
-///            by chance, is halved ten times, and of the halves of each part one has `level` times the
-///            density of the other. The logarithm of the density has a standard deviation of 1.6 log(level).
-///            Towns are a little like that. 1: uniform, but not the uniform sample.
+/// cascade    The density varies by chance, on all scales down to a 32nd of the extent. The bounding box,
+///            turned by chance, is halved ten times; of the halves of each part one has `level` times the
+///            density of the other. The logarithm of the density has a standard deviation of
+///            1.6 log(level). Towns are a little like that. 1: uniform, but not the uniform sample.
 /// poisson    No two points closer than level * h, by dart throwing. std::runtime_error when a million darts
 ///            in a row find no room.
 /// lattice    A square lattice of side h, turned by 3.6 to 14.4 degrees, every point moved by up to

@@ -27,7 +27,7 @@ struct Measure {
   double by_chance;
 };
 
-constexpr Mesh::Index kMostSpacings = 1024;  // that are looked at
+constexpr Mesh::Index kMostSpacings = 1024;  // about so many are looked at
 
 constexpr Measure kOfSpacings = {0.2, 0.6, 2.4};  // a fifth of outliers hardly changes these quantiles
 constexpr Measure kOfNearest = {0.5, 0.85, 1.6};
