@@ -7,14 +7,15 @@
 #include <utility>
 #include <vector>
 
-#include "datasets/point_locator.hpp"
 #include "datasets/random.hpp"
+#include "polylidar/point_locator.hpp"
 
 namespace hullbench {
 
 using polylidar::Box;
 using polylidar::MultiPolygon;
 using polylidar::Point;
+using polylidar::PointLocator;
 using polylidar::Polygon;
 using polylidar::Ring;
 

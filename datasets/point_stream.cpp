@@ -5,12 +5,14 @@
 #include <utility>
 
 #include "datasets/samplers/draw.hpp"
+#include "polylidar/point_locator.hpp"
 
 namespace hullbench {
 
 using polylidar::Box;
 using polylidar::MultiPolygon;
 using polylidar::Point;
+using polylidar::PointLocator;
 
 namespace {
 

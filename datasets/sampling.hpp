@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "datasets/point_locator.hpp"
 #include "datasets/random.hpp"
 #include "polylidar/geometry.hpp"
+#include "polylidar/point_locator.hpp"
 
 namespace hullbench {
 
@@ -27,10 +27,10 @@ class UniformPoints {
   polylidar::Point next();
 
   /// Of the shape.
-  const PointLocator& locator() const { return locator_; }
+  const polylidar::PointLocator& locator() const { return locator_; }
 
  private:
-  PointLocator locator_;
+  polylidar::PointLocator locator_;
   Random random_;
 };
 

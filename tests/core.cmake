@@ -15,6 +15,7 @@ hullbench_test(test_core
     test_delaunay.cpp
     test_kernels.cpp
     test_outline_fill.cpp
+    test_point_locator.cpp
     test_quantile.cpp
     test_reach.cpp
     test_size_filter.cpp

@@ -7,7 +7,6 @@ hullbench_test(test_datasets
     test_datasets.cpp
     test_families.cpp
     test_holes.cpp
-    test_point_locator.cpp
     test_portable_math.cpp
     test_random.cpp
     test_recordings.cpp

@@ -18,9 +18,9 @@
 #include "adapters/adapter.hpp"
 #include "benchmarks/metrics/area.hpp"
 #include "benchmarks/metrics/validity.hpp"
-#include "datasets/point_locator.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
+#include "polylidar/point_locator.hpp"
 #include "tests/complaint.hpp"
 #include "tests/hull_input.hpp"
 #include "tests/hull_oracle.hpp"
@@ -31,6 +31,7 @@ namespace hullbench::testing {
 namespace {
 
 using polylidar::Options;
+using polylidar::PointLocator;
 using polylidar::testing::PointSet;
 
 MultiPolygon run(const std::vector<Point>& points, double radius) {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "polylidar/concave_hull.hpp"
+#include "polylidar/point_locator.hpp"
 #include "tool/hull/degrees.hpp"
 #include "tool/hull/group_hulls.hpp"
-#include "tool/shapes/point_locator.hpp"
 
 namespace polylidar::tool {
 namespace {
@@ -164,7 +164,7 @@ TEST(GroupHulls, OneJoinsAllPartsAndIsTheLeastThatDoes) {
     }
     const IndexShape less = hull_of(points, {.core = {.alpha = *one.limits.alpha / 1.01}}).shape;
     std::vector<std::size_t> polygons;
-    const PointLocator locator(less, points);
+    const PointLocator locator(to_coordinates(less, points));
     for (const IndexPolygon& part : parts) {
       std::map<std::size_t, int> votes;
       for (const std::uint32_t v : part.shell) ++votes[locator.polygon_of(points[v]).value()];
@@ -240,28 +240,27 @@ TEST(PointLocator, AgreesWithAnglesAndKnowsItsBoundary) {
     const std::vector<Point> points = islands(seed, 4, 400, 50);
     const IndexShape shape = polygons_of(concave_hull(points, {.alpha = 0.06}));
     ASSERT_GT(shape.size(), 2U);
-    const PointLocator locator(shape, points);
+    const PointLocator locator(to_coordinates(shape, points));
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> coordinate(-0.5, 9.5);
     for (int i = 0; i < 2000; ++i) {
       const Point p = {coordinate(random), coordinate(random)};
-      EXPECT_EQ(locator.covers(p), is_covered(p, shape, points));
+      EXPECT_EQ(locator.contains(p), is_covered(p, shape, points));
     }
-    for (const Point& p : points) EXPECT_EQ(locator.covers(p), is_covered(p, shape, points));
+    for (const Point& p : points) EXPECT_EQ(locator.contains(p), is_covered(p, shape, points));
     for (const IndexPolygon& polygon : shape) {
-      for (const std::uint32_t v : polygon.shell) EXPECT_TRUE(locator.covers(points[v]));
+      for (const std::uint32_t v : polygon.shell) EXPECT_TRUE(locator.contains(points[v]));
     }
   }
   const std::vector<Point> square = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
-  const PointLocator locator(polygons_of(concave_hull(square, {.alpha = 9})), square);
+  const PointLocator locator(to_coordinates(concave_hull(square, {.alpha = 9}), square));
   for (const Point& p : {Point{0, 2}, Point{2, 0}, Point{4, 1}, Point{1, 4}, Point{2, 2}, Point{4, 4}}) {
-    EXPECT_TRUE(locator.covers(p));
+    EXPECT_TRUE(locator.contains(p));
   }
   for (const Point& p :
        {Point{-1, 0}, Point{5, 0}, Point{-1, 4}, Point{5, 4}, Point{2, -0.1}, Point{2, 4.1}}) {
-    EXPECT_FALSE(locator.covers(p));
+    EXPECT_FALSE(locator.contains(p));
   }
-  EXPECT_FALSE(PointLocator({}, square).covers({0, 0}));
 }
 
 }  // namespace

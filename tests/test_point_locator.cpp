@@ -2,14 +2,12 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
-#include "datasets/point_locator.hpp"
+#include "polylidar/point_locator.hpp"
 
-namespace hullbench {
+namespace polylidar {
 namespace {
-
-using polylidar::MultiPolygon;
-using polylidar::Point;
 
 /// A square of side 10 with a square hole in its middle, and a triangle beside it.
 MultiPolygon square_and_triangle() {
@@ -49,6 +47,18 @@ TEST(PointLocator, BoundaryBelongsToTheShape) {
                             {12, 3}}) {
     EXPECT_TRUE(locator.contains(point)) << point.x << ' ' << point.y;
   }
+}
+
+TEST(PointLocator, KnowsThePolygon) {
+  const PointLocator locator(square_and_triangle());
+  for (const Point point : {Point{1, 1}, {4, 5}, {10, 6}}) EXPECT_EQ(locator.polygon_of(point), 0U);
+  for (const Point point : {Point{13, 4}, {12, 3}, {16, 4}}) EXPECT_EQ(locator.polygon_of(point), 1U);
+  for (const Point point : {Point{5, 5}, {11, 4}, {17, 4}})
+    EXPECT_EQ(locator.polygon_of(point), std::nullopt);
+  const Ring square = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+  const PointLocator twice({{.shell = square, .holes = {}}, {.shell = square, .holes = {}}});
+  EXPECT_EQ(twice.polygon_of({1, 2}), 0U);
+  EXPECT_FALSE(twice.contains({1, 2})) << "even";
 }
 
 TEST(PointLocator, NeighbouringDoublesOfAnEdgeAreToldApart) {
@@ -99,4 +109,4 @@ TEST(PointLocator, EmptyAndFlatShapesAndOddPoints) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace polylidar

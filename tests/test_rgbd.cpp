@@ -12,16 +12,19 @@
 
 #include "benchmarks/base/names.hpp"
 #include "datasets/point_bytes.hpp"
-#include "datasets/point_locator.hpp"
 #include "datasets/rgbd/floor_points.hpp"
 #include "datasets/rgbd/floor_scenes.hpp"
 #include "datasets/rgbd/stereo_camera.hpp"
 #include "datasets/sampling.hpp"
 #include "datasets/sha256.hpp"
+#include "polylidar/point_locator.hpp"
 #include "tests/boost_checks.hpp"
 #include "tests/complaint.hpp"
 
 namespace hullbench::testing {
+
+using polylidar::PointLocator;
+
 namespace {
 
 constexpr SensorNoise kNoNoise{.subpixel_error = 0, .disparity_step = 0, .edge_dropout = 0};

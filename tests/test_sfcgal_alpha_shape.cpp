@@ -8,11 +8,14 @@
 #include <vector>
 
 #include "adapters/adapter.hpp"
-#include "datasets/point_locator.hpp"
+#include "polylidar/point_locator.hpp"
 #include "tests/hull_input.hpp"
 #include "tests/hull_oracle.hpp"
 
 namespace hullbench::testing {
+
+using polylidar::PointLocator;
+
 namespace {
 
 /// Less than the hole of square_points, more than any other gap.

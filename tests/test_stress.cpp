@@ -18,17 +18,20 @@
 
 #include "benchmarks/base/names.hpp"
 #include "datasets/datasets.hpp"
-#include "datasets/point_locator.hpp"
 #include "datasets/random.hpp"
 #include "datasets/samplers/density.hpp"
 #include "datasets/samplers/water.hpp"
 #include "datasets/sampling.hpp"
 #include "datasets/stress.hpp"
+#include "polylidar/point_locator.hpp"
 #include "tests/boost_checks.hpp"
 #include "tests/complaint.hpp"
 #include "tests/point_sets.hpp"
 
 namespace hullbench::testing {
+
+using polylidar::PointLocator;
+
 namespace {
 
 using polylidar::testing::distance;

@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "datasets/point_locator.hpp"
 #include "datasets/portable_math.hpp"
 #include "datasets/random.hpp"
 #include "datasets/rgbd/floor_scenes.hpp"
@@ -20,12 +19,14 @@
 #include "datasets/samplers/rotating.hpp"
 #include "datasets/samplers/scan.hpp"
 #include "datasets/samplers/tracks.hpp"
+#include "polylidar/point_locator.hpp"
 
 namespace hullbench {
 namespace {
 
 using polylidar::MultiPolygon;
 using polylidar::Point;
+using polylidar::PointLocator;
 
 /// Of 100 squared units.
 MultiPolygon small_square() {

@@ -5,12 +5,15 @@
 #include <vector>
 
 #include "benchmarks/base/names.hpp"
-#include "datasets/point_locator.hpp"
 #include "datasets/random.hpp"
 #include "datasets/tissue.hpp"
+#include "polylidar/point_locator.hpp"
 #include "tests/boost_checks.hpp"
 
 namespace hullbench::testing {
+
+using polylidar::PointLocator;
+
 namespace {
 
 std::vector<MultiPolygon> all_cells() {

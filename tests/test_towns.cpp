@@ -8,13 +8,16 @@
 #include <string>
 
 #include "datasets/datasets.hpp"
-#include "datasets/point_locator.hpp"
 #include "datasets/towns.hpp"
+#include "polylidar/point_locator.hpp"
 #include "tests/boost_checks.hpp"
 #include "tests/complaint.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace hullbench::testing {
+
+using polylidar::PointLocator;
+
 namespace {
 
 TEST(Towns, LieInTheirCountry) {

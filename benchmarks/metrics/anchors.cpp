@@ -4,12 +4,13 @@
 #include <vector>
 
 #include "benchmarks/metrics/triangle_outline.hpp"
-#include "datasets/point_locator.hpp"
 #include "polylidar/delaunay.hpp"
+#include "polylidar/point_locator.hpp"
 
 namespace hullbench::metrics {
 namespace {
 
+using polylidar::PointLocator;
 using polylidar::Triangulation;
 
 std::vector<bool> triangles_within(const Triangulation& mesh, std::span<const Point> points,

@@ -5,9 +5,12 @@
 
 #include "benchmarks/metrics/segment_tree.hpp"
 #include "benchmarks/metrics/shape_measures.hpp"
-#include "datasets/point_locator.hpp"
+#include "polylidar/point_locator.hpp"
 
 namespace hullbench::metrics {
+
+using polylidar::PointLocator;
+
 namespace {
 
 /// The square of a distance below this is no number of full precision, or 0.

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "datasets/data_folder.hpp"
-#include "datasets/point_locator.hpp"
+#include "polylidar/point_locator.hpp"
 
 namespace hullbench::real {
 
@@ -19,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using polylidar::MultiPolygon;
 using polylidar::Point;
+using polylidar::PointLocator;
 using polylidar::Ring;
 
 constexpr const char* kCloudPackage = "libcgal-demo";

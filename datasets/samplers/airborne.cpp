@@ -2,14 +2,15 @@
 
 #include <cmath>
 
-#include "datasets/point_locator.hpp"
 #include "datasets/samplers/scan.hpp"
+#include "polylidar/point_locator.hpp"
 
 namespace hullbench {
 
 using polylidar::Box;
 using polylidar::MultiPolygon;
 using polylidar::Point;
+using polylidar::PointLocator;
 
 std::vector<Point> fly_over(const MultiPolygon& shape, double turns, double pitch, double level,
                             Mirror mirror, Random& random) {

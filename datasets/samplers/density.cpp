@@ -3,16 +3,17 @@
 #include <cmath>
 #include <numbers>
 
-#include "datasets/point_locator.hpp"
 #include "datasets/random.hpp"
 #include "datasets/samplers/draw.hpp"
 #include "datasets/sampling.hpp"
+#include "polylidar/point_locator.hpp"
 
 namespace hullbench {
 
 using polylidar::Box;
 using polylidar::MultiPolygon;
 using polylidar::Point;
+using polylidar::PointLocator;
 
 Point drawn_place(const MultiPolygon& shape, std::uint64_t seed) {
   return UniformPoints(shape, derive_seed(seed, "place")).next();

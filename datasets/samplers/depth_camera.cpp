@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "datasets/point_locator.hpp"
 #include "datasets/rgbd/floor_scenes.hpp"
+#include "polylidar/point_locator.hpp"
 
 namespace hullbench {
 
 using polylidar::Box;
 using polylidar::MultiPolygon;
 using polylidar::Point;
+using polylidar::PointLocator;
 
 namespace {
 

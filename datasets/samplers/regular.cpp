@@ -5,17 +5,18 @@
 #include <stdexcept>
 #include <string>
 
-#include "datasets/point_locator.hpp"
 #include "datasets/portable_math.hpp"
 #include "datasets/random.hpp"
 #include "datasets/samplers/draw.hpp"
 #include "datasets/sampling.hpp"
+#include "polylidar/point_locator.hpp"
 
 namespace hullbench {
 
 using polylidar::Box;
 using polylidar::MultiPolygon;
 using polylidar::Point;
+using polylidar::PointLocator;
 
 namespace {
 

@@ -4,15 +4,16 @@
 #include <cmath>
 #include <numbers>
 
-#include "datasets/point_locator.hpp"
 #include "datasets/portable_math.hpp"
 #include "datasets/samplers/density.hpp"
 #include "datasets/samplers/scan.hpp"
+#include "polylidar/point_locator.hpp"
 
 namespace hullbench {
 
 using polylidar::MultiPolygon;
 using polylidar::Point;
+using polylidar::PointLocator;
 using polylidar::Polygon;
 
 LidarRings lidar_rings(const MultiPolygon& shape, const Point& foot, double pitch, double level) {

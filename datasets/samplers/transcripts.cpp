@@ -2,16 +2,17 @@
 
 #include <cmath>
 
-#include "datasets/point_locator.hpp"
 #include "datasets/random.hpp"
 #include "datasets/samplers/density.hpp"
 #include "datasets/samplers/draw.hpp"
 #include "datasets/sampling.hpp"
+#include "polylidar/point_locator.hpp"
 
 namespace hullbench {
 
 using polylidar::MultiPolygon;
 using polylidar::Point;
+using polylidar::PointLocator;
 
 std::vector<Point> sample_transcripts(const MultiPolygon& shape, std::size_t n, double level,
                                       std::uint64_t seed) {

@@ -16,7 +16,6 @@
 #include "tool/hull/group_hulls.hpp"
 #include "tool/points/point_file.hpp"
 #include "tool/points/readers.hpp"
-#include "tool/shapes/point_locator.hpp"
 #include "tool/shapes/polygon_writers.hpp"
 
 namespace {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "polylidar/point_locator.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/commands/run_command.hpp"
 #include "tool/commands/shape_choice.hpp"
@@ -13,7 +14,6 @@
 #include "tool/program/configuration_error.hpp"
 #include "tool/program/interrupt.hpp"
 #include "tool/program/status_line.hpp"
-#include "tool/shapes/point_locator.hpp"
 
 namespace polylidar::tool {
 namespace {
@@ -166,10 +166,10 @@ class HullRun {
 
   void add_outliers(std::size_t g, std::vector<std::string>& features) const {
     const std::vector<Point>& plane = hulls_.latitude ? hulls_.metres : file_.points;
-    const PointLocator locator(hulls_.groups[g].shape, plane);
+    const PointLocator locator(to_coordinates(hulls_.groups[g].shape, plane));
     std::vector<Point> outside;
     const auto look_at = [&](std::size_t i) {
-      if (!locator.covers(plane[i])) outside.push_back(file_.points[i]);
+      if (!locator.contains(plane[i])) outside.push_back(file_.points[i]);
     };
     if (command_.by.empty()) {
       for (std::size_t i = 0; i < plane.size(); ++i) look_at(i);

@@ -1,7 +1,6 @@
 #include "tool/commands/shape_output.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
@@ -9,6 +8,7 @@
 
 #include "tool/points/point_file.hpp"
 #include "tool/program/configuration_error.hpp"
+#include "tool/program/letter_case.hpp"
 #include "tool/program/result_output.hpp"
 
 namespace polylidar::tool {
@@ -20,8 +20,7 @@ constexpr std::string_view kGdal = "gdal:";
 std::string format_of(const ShapeChoice& choice) {
   if (choice.format != "auto") return choice.format;
   if (is_for_gdal(choice.out)) return std::string(kGdal);
-  std::string ending = std::filesystem::path(choice.out).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = lower_case(std::filesystem::path(choice.out).extension().string());
   return ending == ".wkt" || ending == ".wkb" || ending == ".svg" ? ending.substr(1) : "geojson";
 }
 

@@ -11,7 +11,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -28,6 +27,7 @@
 #include "tool/points/readers.hpp"
 #include "tool/program/configuration_error.hpp"
 #include "tool/program/interrupt.hpp"
+#include "tool/program/letter_case.hpp"
 #include "tool/program/result_output.hpp"
 #include "tool/shapes/polygon_writers.hpp"
 
@@ -260,10 +260,9 @@ class LayerReader {
 
 /// Whether `word` is one of those between the blanks of `list`, which may be null, in any case.
 bool is_listed(std::string_view word, const char* list) {
-  const auto equal = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
   for (std::string_view rest = list == nullptr ? "" : list; !rest.empty();) {
     const std::string_view next = rest.substr(0, rest.find(' '));
-    if (std::equal(word.begin(), word.end(), next.begin(), next.end(), equal)) return true;
+    if (equal_in_any_case(word, next)) return true;
     rest.remove_prefix(std::min(rest.size(), next.size() + 1));
   }
   return false;

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "tool/program/letter_case.hpp"
+
 namespace polylidar::tool {
 namespace {
 
@@ -17,11 +19,6 @@ constexpr std::array<std::string_view, 17> kEndings = {
 /// In front of what is no file.
 constexpr std::array<std::string_view, 8> kBeginnings = {
     "pg:", "postgresql:", "mysql:", "mssql:", "oapif:", "wfs:", "es:", "/vsi"};
-
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 }  // namespace
 
@@ -35,9 +32,9 @@ bool is_database(const std::string& path) {
 }
 
 bool is_for_gdal(const std::string& path) {
-  const std::string ending = lower(std::filesystem::path(path).extension().string());
+  const std::string ending = lower_case(std::filesystem::path(path).extension().string());
   if (std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end()) return true;
-  const std::string start = lower(path.substr(0, 16));
+  const std::string start = lower_case(path.substr(0, 16));
   return std::any_of(kBeginnings.begin(), kBeginnings.end(),
                      [&](std::string_view beginning) { return start.starts_with(beginning); });
 }

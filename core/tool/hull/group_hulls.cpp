@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "tool/shapes/point_locator.hpp"
+#include "polylidar/point_locator.hpp"
 #include "tool/shapes/simplify.hpp"
 
 namespace polylidar::tool {
@@ -100,10 +100,10 @@ class Widening {
     if (outside.empty() || !extractor_.has_triangles()) return 1;
     return least_factor(1, [&](double factor) {
       const IndexShape wider = shape(factor);
-      const PointLocator locator(wider, points_);
+      const PointLocator locator(to_coordinates(wider, points_));
       std::vector<std::uint32_t> left;
       std::copy_if(outside.begin(), outside.end(), std::back_inserter(left),
-                   [&](std::uint32_t i) { return !locator.covers(points_[i]); });
+                   [&](std::uint32_t i) { return !locator.contains(points_[i]); });
       if (left.empty()) return true;
       outside = std::move(left);
       return false;
@@ -122,7 +122,7 @@ class Widening {
 
   /// The polygon of `wider` that has all `parts`, which it covers.
   std::optional<std::size_t> polygon_with_all(const IndexShape& parts, const IndexShape& wider) const {
-    const PointLocator locator(wider, points_);
+    const PointLocator locator(to_coordinates(wider, points_));
     const PolygonOfEdge polygon_of_edge(wider);
     std::optional<std::size_t> all;
     for (const IndexPolygon& part : parts) {

@@ -104,11 +104,7 @@ class Reader {
   Unsigned whole() {
     std::array<char, sizeof(Unsigned)> bytes_of_value;
     bytes(bytes_of_value.data(), bytes_of_value.size());
-    std::uint64_t value = 0;
-    for (std::size_t i = sizeof(Unsigned); i-- > 0;) {
-      value = value << 8U | static_cast<unsigned char>(bytes_of_value[i]);
-    }
-    return static_cast<Unsigned>(value);
+    return whole_at<Unsigned>(bytes_of_value.data());
   }
   double real() { return std::bit_cast<double>(whole<std::uint64_t>()); }
   std::uint64_t short_whole() {

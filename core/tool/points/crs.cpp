@@ -7,6 +7,8 @@
 #include <map>
 #include <vector>
 
+#include "tool/program/letter_case.hpp"
+
 namespace polylidar::tool {
 namespace {
 
@@ -62,12 +64,6 @@ std::optional<int> number_of(std::string_view text) {
   return number;
 }
 
-std::string upper(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return result;
-}
-
 bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
@@ -96,7 +92,7 @@ int number_of_known_name(std::string_view name) {
                                                     {"NAD83", 4269, 26900, 0, 1, 23},
                                                     {"NAD1983", 4269, 26900, 0, 1, 23},
                                                     {"NORTHAMERICAN1983", 4269, 0, 0, 1, 0}}};
-  std::string plain = upper(name);
+  std::string plain = upper_case(std::string(name));
   std::erase_if(plain, [](unsigned char c) { return std::isalnum(c) == 0; });
   std::string_view rest = plain;
   if (rest.starts_with("GCS")) rest.remove_prefix(3);
@@ -128,7 +124,7 @@ std::optional<Crs> horizontal_system(std::string_view text) {
       word = text.substr(i + 1, end - i - 1);
       i = end;
     } else if (c == '[' || c == '(') {
-      open.push_back({upper(word), {}});
+      open.push_back({upper_case(word), {}});
       word.clear();
       // The first one is the horizontal one, or what it was projected from is inside it.
       const std::string& keyword = open.back().keyword;
@@ -144,7 +140,7 @@ std::optional<Crs> horizontal_system(std::string_view text) {
       if (c == ',' || open.empty()) continue;
       const Node& node = open.back();
       if (found && open.size() == depth_of_found + 1 && is_one_of(node.keyword, {"AUTHORITY", "ID"}) &&
-          node.values.size() >= 2 && upper(node.values[0]) == "EPSG") {
+          node.values.size() >= 2 && upper_case(node.values[0]) == "EPSG") {
         found->epsg = number_of(node.values[1]).value_or(0);
       }
       if (found && open.size() == depth_of_found && found->epsg == 0) {
@@ -172,7 +168,7 @@ Crs crs_of_epsg(int number) {
 }
 
 std::optional<Crs> crs_of_name(std::string_view name) {
-  const std::string text = upper(name);
+  const std::string text = upper_case(std::string(name));
   if (text.ends_with("CRS84")) return crs_of_epsg(kWgs84);
   const std::size_t authority = text.rfind("EPSG");
   if (authority == std::string::npos) return {};

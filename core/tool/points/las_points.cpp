@@ -9,6 +9,7 @@
 #include "tool/points/laz_points.hpp"
 #include "tool/points/numbers.hpp"
 #include "tool/points/readers.hpp"
+#include "tool/program/little_endian.hpp"
 
 namespace polylidar::tool::point_files {
 namespace {
@@ -46,32 +47,11 @@ constexpr unsigned kCompressed = 0xC0;
 
 constexpr const char* kCopyAgain = "; it was cut short, so copy or save it again";
 
-std::uint64_t unsigned_at(const char* bytes, std::size_t size) {
-  std::uint64_t bits = 0;
-  for (std::size_t i = 0; i < size; ++i) {
-    bits |= std::uint64_t{static_cast<unsigned char>(bytes[i])} << (8 * i);
-  }
-  return bits;
-}
-
-std::int32_t int32_at(const char* bytes) {
-  std::uint32_t bits = 0;
-  if constexpr (std::endian::native == std::endian::little) {
-    std::memcpy(&bits, bytes, sizeof bits);
-  } else {
-    bits = static_cast<std::uint32_t>(unsigned_at(bytes, sizeof bits));
-  }
-  return static_cast<std::int32_t>(bits);
-}
-
-double double_at(const char* bytes) {
-  return load(bytes, {Scalar::Kind::kFloat, 8, false});
-}
-
 /// How many points the header promises; `bytes` are as many as 1.4 has.
 std::uint64_t promised_points(const char* bytes) {
-  const std::uint64_t count = unsigned_at(bytes + kVersionMinor, 1) >= 4 ? unsigned_at(bytes + kCount, 8) : 0;
-  return count != 0 ? count : unsigned_at(bytes + kLegacyCount, 4);
+  const std::uint64_t count =
+      whole_at<std::uint8_t>(bytes + kVersionMinor) >= 4 ? whole_at<std::uint64_t>(bytes + kCount) : 0;
+  return count != 0 ? count : whole_at<std::uint32_t>(bytes + kLegacyCount);
 }
 
 Lattice lattice_of(const char* bytes) {
@@ -138,16 +118,16 @@ class LasReader {
       reader_.fail("it does not begin with LASF as a LAS file does; name the right format with --input");
     }
     if (!is_whole) reader_.fail(std::string("its LAS header is not whole") + kCopyAgain);
-    header_.minor_version = static_cast<int>(unsigned_at(&bytes[kVersionMinor], 1));
-    const auto major_version = static_cast<int>(unsigned_at(&bytes[kVersionMinor - 1], 1));
+    header_.minor_version = whole_at<std::uint8_t>(&bytes[kVersionMinor]);
+    const int major_version = whole_at<std::uint8_t>(&bytes[kVersionMinor - 1]);
     if (major_version != 1 || header_.minor_version > 4) {
       refuse("says version " + std::to_string(major_version) + "." + std::to_string(header_.minor_version) +
              ", and 1.0 to 1.4 are known; convert it to one of these");
     }
-    header_.size = unsigned_at(&bytes[kHeaderSize], 2);
-    header_.points_at = unsigned_at(&bytes[kPointOffset], 4);
-    header_.records = unsigned_at(&bytes[kRecordCount], 4);
-    header_.point_size = static_cast<std::size_t>(unsigned_at(&bytes[kPointSize], 2));
+    header_.size = whole_at<std::uint16_t>(&bytes[kHeaderSize]);
+    header_.points_at = whole_at<std::uint32_t>(&bytes[kPointOffset]);
+    header_.records = whole_at<std::uint32_t>(&bytes[kRecordCount]);
+    header_.point_size = whole_at<std::uint16_t>(&bytes[kPointSize]);
     const std::size_t needed = header_.minor_version >= 4 ? kNewHeader : kOldHeader;
     if (header_.size < needed || header_.points_at < header_.size) {
       refuse("says that it has " + std::to_string(header_.size) + " bytes and the points begin at byte " +
@@ -157,11 +137,11 @@ class LasReader {
       if (!take(&bytes[kOldHeader], kNewHeader - kOldHeader)) {
         reader_.fail(std::string("its LAS header is not whole") + kCopyAgain);
       }
-      header_.extended_records_at = unsigned_at(&bytes[kExtendedRecords], 8);
-      header_.extended_records = unsigned_at(&bytes[kExtendedRecordCount], 4);
+      header_.extended_records_at = whole_at<std::uint64_t>(&bytes[kExtendedRecords]);
+      header_.extended_records = whole_at<std::uint32_t>(&bytes[kExtendedRecordCount]);
     }
     header_.count = promised_points(bytes.data());
-    read_format(static_cast<unsigned>(unsigned_at(&bytes[kPointFormat], 1)));
+    read_format(whole_at<std::uint8_t>(&bytes[kPointFormat]));
     header_.lattice = lattice_of(bytes.data());
     const auto& [steps, offset_of] = header_.lattice;
     const auto reach = [](double scale, double offset) {
@@ -194,7 +174,7 @@ class LasReader {
       if (header_.points_at - position_ < kRecordHeader) return;
       std::array<char, kRecordHeader> start{};
       if (!take(start.data(), start.size())) return;
-      const std::uint64_t size = unsigned_at(&start[20], 2);
+      const std::uint64_t size = whole_at<std::uint16_t>(&start[20]);
       if (header_.points_at - position_ < size) return;
       if (!read_record(start.data(), size)) return;
     }
@@ -210,7 +190,7 @@ class LasReader {
     for (std::uint64_t r = 0; r < header_.extended_records; ++r) {
       std::array<char, kExtendedRecordHeader> start{};
       if (!reader_.read(start.data(), start.size())) return;
-      const std::uint64_t size = unsigned_at(&start[20], 8);
+      const std::uint64_t size = whole_at<std::uint64_t>(&start[20]);
       if (size > *reader_.remaining() || !read_record(start.data(), size)) return;
     }
   }
@@ -222,7 +202,7 @@ class LasReader {
     constexpr std::uint64_t kGeoKeys = 34735;
     constexpr std::uint64_t kGeoKeyTexts = 34737;
     constexpr std::uint64_t kLongest = std::uint64_t{1} << 20U;
-    const std::uint64_t id = unsigned_at(start + 18, 2);
+    const std::uint64_t id = whole_at<std::uint16_t>(start + 18);
     const std::string_view user(start + 2, 16);
     const bool is_laz = is_laz_record(user, id) && laz_record_.empty() && size <= kLongest;
     const bool is_projection = user.starts_with("LASF_Projection");
@@ -244,7 +224,7 @@ class LasReader {
     } else {
       geokeys_.resize(bytes.size() / 2);
       for (std::size_t k = 0; k < geokeys_.size(); ++k) {
-        geokeys_[k] = static_cast<std::uint16_t>(unsigned_at(&bytes[2 * k], 2));
+        geokeys_[k] = whole_at<std::uint16_t>(&bytes[2 * k]);
       }
     }
     return true;
@@ -318,19 +298,17 @@ class LasReader {
   }
 
   Attributes attributes_of(const char* record) const {
-    const auto byte = [&](std::size_t place) {
-      return static_cast<unsigned>(unsigned_at(record + place, 1));
-    };
+    const auto byte = [&](std::size_t place) -> unsigned { return whole_at<std::uint8_t>(record + place); };
     if (is_extended_format_) {
-      return {byte(14) & 15U, byte(14) >> 4U, byte(16), static_cast<unsigned>(unsigned_at(record + 20, 2)),
+      return {byte(14) & 15U, byte(14) >> 4U, byte(16), whole_at<std::uint16_t>(record + 20),
               (byte(15) & 4U) != 0};
     }
-    return {byte(14) & 7U, (byte(14) >> 3U) & 7U, byte(15) & 31U,
-            static_cast<unsigned>(unsigned_at(record + 18, 2)), (byte(15) & 128U) != 0};
+    return {byte(14) & 7U, (byte(14) >> 3U) & 7U, byte(15) & 31U, whole_at<std::uint16_t>(record + 18),
+            (byte(15) & 128U) != 0};
   }
 
   static Point point_of(const char* record, const Lattice& lattice) {
-    return lattice.at({int32_at(record), int32_at(record + 4)});
+    return lattice.at({whole_at<std::int32_t>(record), whole_at<std::int32_t>(record + 4)});
   }
 
   /// Puts the points of a block but for those that are withheld behind the first `filled_` ones: as add()
@@ -344,7 +322,7 @@ class LasReader {
     if (kept_ != nullptr) {
       LatticePoint* const kept = kept_->end();
       for (std::size_t i = 0; i < count; ++i) {
-        kept[i] = {int32_at(block + i * size), int32_at(block + i * size + 4)};
+        kept[i] = {whole_at<std::int32_t>(block + i * size), whole_at<std::int32_t>(block + i * size + 4)};
       }
     }
     const std::size_t taken = count_classes(block, count) ? drop_withheld(block, count) : count;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "tool/points/arithmetic_decoder.hpp"
+#include "tool/program/little_endian.hpp"
 
 namespace polylidar::tool::point_files {
 namespace {
@@ -62,12 +63,6 @@ constexpr std::array<std::array<std::uint8_t, 16>, 16> kReturnContext6 = {
      {5, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 5, 5, 5, 4},
      {5, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 5, 5, 5},
      {5, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 5, 5}}};
-
-std::uint32_t number_at(const unsigned char* bytes, std::size_t size) {
-  std::uint32_t number = 0;
-  for (std::size_t i = 0; i < size; ++i) number |= std::uint32_t{bytes[i]} << (8 * i);
-  return number;
-}
 
 void put(char* to, std::uint32_t number, std::size_t size) {
   if constexpr (std::endian::native == std::endian::little) {
@@ -248,12 +243,12 @@ class PointwiseDecoder : public ChunkDecoder {
     if (bytes.size() < size) return false;
     is_first_ = true;
     is_alone_ = count == 1;
-    x_ = number_at(bytes.data(), 4);
-    y_ = number_at(bytes.data() + 4, 4);
+    x_ = whole_at<std::uint32_t>(bytes.data());
+    y_ = whole_at<std::uint32_t>(bytes.data() + 4);
     returns_ = bytes[kReturnsAt];
     class_ = bytes[kFlagsAt];
     user_data_ = bytes[kUserDataAt];
-    source_ = number_at(bytes.data() + kSourceAt, 2);
+    source_ = whole_at<std::uint16_t>(bytes.data() + kSourceAt);
     reset_models();
     decoder_.start(bytes.subspan(size));
     return true;
@@ -353,19 +348,20 @@ class LayeredDecoder : public ChunkDecoder {
     const std::size_t layers =
         kLayerCount + (layout_.has_colour ? 1 : 0) + (layout_.has_infrared ? 1 : 0) + layout_.extra_bytes;
     const std::size_t fixed_size = record_size + 4 + 4 * layers;
-    if (bytes.size() < fixed_size || number_at(&bytes[record_size], 4) < count) return false;
+    if (bytes.size() < fixed_size || whole_at<std::uint32_t>(&bytes[record_size]) < count) return false;
     is_first_ = true;
     is_alone_ = count == 1;
     for (Channel& channel : channels_) channel.is_used = false;
     const unsigned flags = bytes[kFlagsAt];
     channel_ = flags >> 4U & 3U;
     const unsigned returns = bytes[kReturnsAt];
-    begin_channel({number_at(bytes.data(), 4), number_at(&bytes[4], 4), returns & 15U, returns >> 4U,
-                   (flags & 15U) | (flags >> 6U) << 4U, bytes[kClassAt], number_at(&bytes[kSourceAt6], 2)});
+    begin_channel({whole_at<std::uint32_t>(bytes.data()), whole_at<std::uint32_t>(&bytes[4]), returns & 15U,
+                   returns >> 4U, (flags & 15U) | (flags >> 6U) << 4U, bytes[kClassAt],
+                   whole_at<std::uint16_t>(&bytes[kSourceAt6])});
     Bytes sizes = bytes.subspan(record_size + 4);
     Bytes rest = bytes.subspan(fixed_size);
     for (std::size_t layer = 0; layer < kLayerCount; ++layer) {
-      const std::size_t size = number_at(&sizes[4 * layer], 4);
+      const std::size_t size = whole_at<std::uint32_t>(&sizes[4 * layer]);
       if (size > rest.size()) return false;
       layers_[layer].start(rest.first(size));
       has_layer_[layer] = size > 0;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "tool/points/arithmetic_decoder.hpp"
+#include "tool/program/little_endian.hpp"
 
 namespace polylidar::tool::point_files {
 namespace {
@@ -44,24 +45,18 @@ struct Item {
   std::uint64_t version = 0;
 };
 
-std::uint64_t number_in(std::span<const unsigned char> bytes) {
-  std::uint64_t number = 0;
-  for (std::size_t i = bytes.size(); i-- > 0;) number = number << 8U | bytes[i];
-  return number;
-}
-
-/// The `size` bytes at `place`; 0 where there are fewer.
-std::uint64_t number_in(std::string_view bytes, std::size_t place, std::size_t size) {
-  if (place + size > bytes.size()) return 0;
-  return number_in({reinterpret_cast<const unsigned char*>(bytes.data()) + place, size});
+/// The number at `place`; 0 where there are fewer bytes.
+template <class Whole>
+Whole number_in(std::string_view bytes, std::size_t place) {
+  return place + sizeof(Whole) <= bytes.size() ? whole_at<Whole>(bytes.data() + place) : Whole{0};
 }
 
 std::vector<Item> items_of(std::string_view record) {
-  std::vector<Item> items(number_in(record, kItemCount, 2));
+  std::vector<Item> items(number_in<std::uint16_t>(record, kItemCount));
   for (std::size_t i = 0; i < items.size(); ++i) {
     const std::size_t place = kItems + 6 * i;
-    items[i] = {number_in(record, place, 2), number_in(record, place + 2, 2),
-                number_in(record, place + 4, 2)};
+    items[i] = {number_in<std::uint16_t>(record, place), number_in<std::uint16_t>(record, place + 2),
+                number_in<std::uint16_t>(record, place + 4)};
   }
   return items;
 }
@@ -115,12 +110,12 @@ void LazPoints::find_layout(const LazHeader& header, std::string_view record, bo
   if (header.format == 4 || header.format == 5 || header.format > 8) {
     reader_.fail("it is a LAZ file with waveforms, which are not unpacked here" + std::string(kConvert));
   }
-  const std::uint64_t compressor = number_in(record, kCompressor, 2);
+  const std::uint64_t compressor = number_in<std::uint16_t>(record, kCompressor);
   if (compressor < kPointwiseCompressor || compressor > kLayeredCompressor ||
-      number_in(record, kCoder, 2) != 0) {
+      number_in<std::uint16_t>(record, kCoder) != 0) {
     reader_.fail("it is a LAZ file with compressor " + std::to_string(compressor) + " and coder " +
-                 std::to_string(number_in(record, kCoder, 2)) + ", and 1 to 3 with coder 0 are known" +
-                 kConvert);
+                 std::to_string(number_in<std::uint16_t>(record, kCoder)) +
+                 ", and 1 to 3 with coder 0 are known" + kConvert);
   }
   layout_ = layout_of(header.format, wants_source);
   layout_.extra_bytes = header.point_size - std::min(layout_.record_size(), header.point_size);
@@ -143,7 +138,7 @@ void LazPoints::find_layout(const LazHeader& header, std::string_view record, bo
                  (layout_.is_layered ? "3 and 4 are" : "2 is") + " known for its point format" + kConvert);
   }
   has_chunks_ = compressor != kPointwiseCompressor;
-  chunk_size_ = static_cast<std::uint32_t>(number_in(record, kChunkSize, 4));
+  chunk_size_ = number_in<std::uint32_t>(record, kChunkSize);
   if (chunk_size_ == 0) chunk_size_ = kVariable;  // as LASzip has it
 }
 
@@ -176,8 +171,8 @@ std::uint64_t LazPoints::find_table() const {
   read_bytes(points_at_, place);
   // A program that could not go back there wrote the place to the end of the file.
   constexpr std::uint64_t kAtEnd = ~std::uint64_t{0};
-  if (number_in(place) == kAtEnd) read_bytes(end_ - place.size(), place);
-  const std::uint64_t table_at = number_in(place);
+  if (whole_at<std::uint64_t>(place.data()) == kAtEnd) read_bytes(end_ - place.size(), place);
+  const std::uint64_t table_at = whole_at<std::uint64_t>(place.data());
   if (table_at == points_at_) {
     reader_.fail(
         "it is a LAZ file without the table of its chunks, as its writing was interrupted; write it again");
@@ -192,8 +187,8 @@ void LazPoints::read_table(std::uint64_t table_at, std::uint64_t chunks_at) {
   if (table_at < chunks_at || table_at > end_ || end_ - table_at < start.size()) fail_short();
   read_bytes(table_at, start);
   const std::uint64_t bytes_of_chunks = table_at - chunks_at;
-  const std::uint64_t count = number_in(std::span(start).subspan(4));
-  if (number_in(std::span(start).first(4)) != 0 || count > bytes_of_chunks) fail_at_table();
+  const std::uint64_t count = whole_at<std::uint32_t>(&start[4]);
+  if (whole_at<std::uint32_t>(start.data()) != 0 || count > bytes_of_chunks) fail_at_table();
   constexpr std::uint64_t kMostForChunk = 16;  // of the table's bytes, more than enough
   bytes_.resize(
       static_cast<std::size_t>(std::min(end_ - table_at - start.size(), kMostForChunk * (count + 1))));

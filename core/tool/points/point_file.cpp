@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
@@ -10,6 +9,7 @@
 #include "tool/gdal/vector_formats.hpp"
 #include "tool/points/block_reader.hpp"
 #include "tool/points/readers.hpp"
+#include "tool/program/letter_case.hpp"
 
 namespace polylidar::tool {
 namespace {
@@ -57,15 +57,10 @@ constexpr std::array<Foreign, 8> kForeign = {
       "--input gdal', in a build with GDAL"},
      {"%PDF", "it is a PDF; give a file of points"}}};
 
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 /// Whether `text` begins with a geometry's name followed by what may follow one, so that a header such as
 /// "point,x,y" does not count.
 bool looks_like_wkt(std::string_view text) {
-  const std::string start = lower(std::string(text.substr(0, 64)));
+  const std::string start = lower_case(std::string(text.substr(0, 64)));
   if (start.starts_with("srid=")) return true;
   for (const std::string_view name : {"point", "multipoint", "geometrycollection", "linestring", "polygon",
                                       "multilinestring", "multipolygon"}) {
@@ -96,8 +91,8 @@ PointFormat format_of_content(std::string_view start) {
 
 /// The format that the file's name says, if any, be it compressed or not.
 PointFormat format_of_name(const std::filesystem::path& name) {
-  const std::string last = lower(name.extension().string());
-  const std::string ending = last == ".gz" ? lower(name.stem().extension().string()) : last;
+  const std::string last = lower_case(name.extension().string());
+  const std::string ending = last == ".gz" ? lower_case(name.stem().extension().string()) : last;
   const auto known =
       std::find_if(kEndings.begin(), kEndings.end(), [&](const Ending& e) { return e.ending == ending; });
   return known == kEndings.end() ? PointFormat::kAuto : known->format;
@@ -165,7 +160,7 @@ void check_options(PointFormat format, const BlockReader& reader) {
 void read_projection_beside(const std::string& path, PointFile& file) {
   constexpr std::streamsize kLongest = 1 << 16;
   std::filesystem::path beside = path;
-  if (lower(beside.extension().string()) == ".gz") beside.replace_extension();
+  if (lower_case(beside.extension().string()) == ".gz") beside.replace_extension();
   std::ifstream stream(beside.replace_extension(".prj"), std::ios::binary);
   std::string text(kLongest, '\0');
   stream.read(text.data(), kLongest);

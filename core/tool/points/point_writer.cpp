@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -11,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "tool/program/letter_case.hpp"
 #include "tool/program/little_endian.hpp"
 
 namespace polylidar::tool {
@@ -108,8 +108,7 @@ std::optional<PointOutput> point_output_of(const std::string& name) {
 }
 
 std::optional<PointOutput> point_output_of_ending(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = lower_case(std::filesystem::path(path).extension().string());
   const auto* const found =
       std::find_if(kOutputEndings.begin(), kOutputEndings.end(),
                    [&](const auto& known) { return !ending.empty() && ending.substr(1) == known.first; });

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <deque>
 
 #include "tool/points/numbers.hpp"
 #include "tool/points/readers.hpp"
+#include "tool/program/letter_case.hpp"
 
 namespace polylidar::tool::point_files {
 namespace {
@@ -86,11 +86,6 @@ char delimiter_of(std::string_view row) {
     if (row.find(delimiter) != std::string_view::npos) return delimiter;
   }
   return kBlank;
-}
-
-bool equal_in_any_case(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](unsigned char c, unsigned char d) { return std::tolower(c) == std::tolower(d); });
 }
 
 /// Names of columns of x and of y that go together, in any pair; empty ones are none.

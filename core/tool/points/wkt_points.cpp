@@ -2,6 +2,7 @@
 
 #include "tool/points/numbers.hpp"
 #include "tool/points/readers.hpp"
+#include "tool/program/letter_case.hpp"
 
 namespace polylidar::tool::point_files {
 namespace {
@@ -53,11 +54,7 @@ class WktReader {
     return word_;
   }
 
-  std::string keyword() {
-    std::string text = word();
-    for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    return text;
-  }
+  std::string keyword() { return upper_case(word()); }
 
   [[noreturn]] void fail_word(const std::string& what) const {
     reader_.fail_here(what + " (" + in_quotes(word_) +

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <type_traits>
 
@@ -20,6 +21,28 @@ void put(Whole value, std::string& to) {
 /// Appends the bytes of `value` as IEEE 754 has them.
 inline void put(double value, std::string& to) {
   put(std::bit_cast<std::uint64_t>(value), to);
+}
+
+/// The number whose bytes, char or unsigned char, begin at `bytes`.
+template <class Whole, class Byte>
+Whole whole_at(const Byte* bytes) {
+  static_assert(sizeof(Byte) == 1);
+  if constexpr (std::endian::native == std::endian::little) {
+    Whole value;
+    std::memcpy(&value, bytes, sizeof value);
+    return value;
+  } else {
+    std::uint64_t bits = 0;
+    for (std::size_t byte = sizeof(Whole); byte-- > 0;)
+      bits = bits << 8U | static_cast<unsigned char>(bytes[byte]);
+    return static_cast<Whole>(bits);
+  }
+}
+
+/// The same of a double as IEEE 754 has it.
+template <class Byte>
+double double_at(const Byte* bytes) {
+  return std::bit_cast<double>(whole_at<std::uint64_t>(bytes));
 }
 
 }  // namespace polylidar::tool
