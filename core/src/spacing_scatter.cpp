@@ -1,8 +1,10 @@
 #include "spacing_scatter.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -46,26 +48,31 @@ double excess(const Scatter& scatter, const AutomaticConstants& constants) {
   return std::max(scatter.value - scatter.by_chance - constants.even, 0.0);
 }
 
+/// As whole numbers doubles that are not negative have the same order, and the smaller of two is found
+/// without a branch. NaN, here that of a ghost, is above infinity.
+std::uint64_t in_order(double size4) {
+  return std::bit_cast<std::uint64_t>(size4);
+}
+
 /// The fourth power of the spacing at the start of half-edge `e`; infinity where fewer than three triangles
 /// meet.
 double spacing4_at(const SizedMesh& sized, Mesh::Index e) {
   const Mesh& mesh = sized.mesh;
-  double first = std::numeric_limits<double>::infinity();
-  double second = first;
-  double third = first;
+  std::uint64_t first = in_order(std::numeric_limits<double>::infinity());
+  std::uint64_t second = first;
+  std::uint64_t third = first;
   Mesh::Index turned = e;
   do {
     const Mesh::Index t = Mesh::triangle_of(turned);
-    // NaN of a ghost, which is what std::max returns then, and std::min does not.
-    const double size4 = sized.size4 != nullptr ? sized.size4[t]
-                         : mesh.is_ghost(t)     ? std::numeric_limits<double>::quiet_NaN()
-                                                : sized.triangle(t).size4();
+    const std::uint64_t size4 = in_order(sized.size4 != nullptr ? sized.size4[t]
+                                         : mesh.is_ghost(t)     ? std::numeric_limits<double>::quiet_NaN()
+                                                                : sized.triangle(t).size4());
     third = std::min(third, std::max(size4, second));
     second = std::min(second, std::max(size4, first));
     first = std::min(first, size4);
     turned = mesh.twin(Mesh::previous(turned));
   } while (turned != e);
-  return third;
+  return std::bit_cast<double>(third);
 }
 
 /// The fourth power of the distance from the start of half-edge `e` to the nearest other vertex.
@@ -82,27 +89,25 @@ double nearest4_at(const SizedMesh& sized, Mesh::Index e) {
   return squared * squared;
 }
 
-/// Fills `lengths4` with length4_at(half-edge), in usual sizes, at the first corners of about `kMostSpacings`
-/// triangles, as far as it is finite. Returns whether half of these triangles are flat.
-template <class Length4At>
-bool look_at(const SizedMesh& sized, std::span<const std::uint32_t> block_of_vertex,
-             std::span<const double> usual4, const Length4At& length4_at, std::vector<double>& lengths4) {
+/// The first corners of about `kMostSpacings` triangles, evenly over the mesh; none if half of these
+/// triangles are flat.
+std::vector<Mesh::Index> corners_to_look_at(const SizedMesh& sized) {
   const Mesh& mesh = sized.mesh;
+  std::vector<Mesh::Index> corners;
+  corners.reserve(2 * kMostSpacings);
   for (Mesh::Index step = (mesh.triangle_count() / kMostSpacings) | 1U;; step = 1) {
-    lengths4.clear();
-    std::size_t looked_at = 0;
+    corners.clear();
     std::size_t flat = 0;
     for (std::size_t i = 0; i < mesh.triangle_count(); i += step) {
       const auto t = static_cast<Mesh::Index>(i);
       if (mesh.is_ghost(t)) continue;
-      const Mesh::Index corner = Mesh::kStride * t;
-      const double length4 = length4_at(corner) / usual4[block_of_vertex[mesh.origin(corner)]];
-      if (std::isfinite(length4)) lengths4.push_back(length4);
-      ++looked_at;
+      corners.push_back(Mesh::kStride * t);
       const Triangle triangle = sized.triangle(t);
       flat += is_flat(triangle.twice_area(), triangle.squared_longest_edge()) ? 1U : 0U;
     }
-    if (step == 1 || looked_at >= kMostSpacings / 4) return 2 * flat >= looked_at;
+    if (step != 1 && corners.size() < kMostSpacings / 4) continue;
+    if (2 * flat >= corners.size()) corners.clear();
+    return corners;
   }
 }
 
@@ -112,14 +117,20 @@ double excess_scatter(const SizedMesh& sized, std::span<const std::uint32_t> blo
                       std::span<const double> usual4, double points, const AutomaticConstants& constants) {
   // On a grid a neighbour is one step away or a diagonal: log sqrt(2). Points at random have 0.50.
   constexpr double kLeastOfNearest = 0.347;
+  const std::vector<Mesh::Index> corners = corners_to_look_at(sized);
   std::vector<double> lengths4;
-  lengths4.reserve(2 * kMostSpacings);
-  const auto spacing4_of = [&](Mesh::Index corner) { return spacing4_at(sized, corner); };
-  if (look_at(sized, block_of_vertex, usual4, spacing4_of, lengths4)) return 0;
+  lengths4.reserve(corners.size());
+  const auto look = [&](const auto& length4_at) {
+    lengths4.clear();
+    for (const Mesh::Index corner : corners) {
+      const double length4 = length4_at(sized, corner) / usual4[block_of_vertex[sized.mesh.origin(corner)]];
+      if (std::isfinite(length4)) lengths4.push_back(length4);
+    }
+  };
+  look(spacing4_at);
   const double of_spacings = excess(scatter_of(lengths4, points, kOfSpacings), constants);
   if (of_spacings == 0) return 0;
-  const auto nearest4_of = [&](Mesh::Index corner) { return nearest4_at(sized, corner); };
-  look_at(sized, block_of_vertex, usual4, nearest4_of, lengths4);
+  look(nearest4_at);
   const Scatter nearest = scatter_of(lengths4, points, kOfNearest);
   return nearest.value - nearest.by_chance < kLeastOfNearest ? 0 : of_spacings;
 }
