@@ -20,6 +20,7 @@ hullbench_test(test_core
     test_reach.cpp
     test_size_filter.cpp
     test_stream.cpp
+    test_widened_hull.cpp
     test_window_sample.cpp
   LIBRARIES hullbench_test_support LABELS core)
 hullbench_test(test_interior SOURCES test_interior.cpp LIBRARIES hullbench_test_support LABELS core)

@@ -45,6 +45,16 @@ MultiPolygon shape_of(const std::vector<Point>& points, const HullOptions& optio
   return to_coordinates(hull_of(points, options).shape, points);
 }
 
+/// The points that `shape` leaves outside, by ascending index.
+std::vector<std::uint32_t> points_outside(const IndexShape& shape, const std::vector<Point>& points) {
+  const PointLocator locator(to_coordinates(shape, points));
+  std::vector<std::uint32_t> outside;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (!locator.contains(points[i])) outside.push_back(i);
+  }
+  return outside;
+}
+
 /// By the angles that the rings turn round `p`, without anything of the locator's.
 bool is_covered(const Point& p, const IndexShape& shape, const std::vector<Point>& points) {
   double turns = 0;
@@ -120,7 +130,7 @@ TEST(GroupHulls, WithoutGroupsTheStepsAreTold) {
   };
   EXPECT_EQ(steps({}), std::vector<std::string>{"triangulating 204 points"});
   EXPECT_EQ(steps({.simplify = 0.1}).back(), "simplifying the outline");
-  const std::vector<std::string> widened = steps({.core = {.max_perimeter = 0.5}, .cover = true});
+  const std::vector<std::string> widened = steps({.core = {.max_perimeter = 0.5}, .wanted = {.cover = true}});
   ASSERT_GT(widened.size(), 4U);
   EXPECT_EQ(widened[0], "triangulating 204 points");
   EXPECT_EQ(widened[3], "widening the limit: step 3");
@@ -133,7 +143,7 @@ TEST(GroupHulls, CoverLeavesNoPointOutsideAndIsTheLeastThatDoes) {
       HullOptions options;
       if (!chosen) options.core.max_perimeter = 0.5;
       EXPECT_FALSE(points_outside(hull_of(points, options).shape, points).empty());
-      options.cover = true;
+      options.wanted.cover = true;
       const GroupHull covering = hull_of(points, options);
       for (const Point& p : points) EXPECT_TRUE(is_covered(p, covering.shape, points));
       // A little less leaves somebody out.
@@ -156,7 +166,7 @@ TEST(GroupHulls, OneJoinsAllPartsAndIsTheLeastThatDoes) {
     const std::vector<Point> points = islands(seed, 4, 300, 3);
     const IndexShape parts = hull_of(points, {.core = {.alpha = 0.15}}).shape;
     ASSERT_GE(parts.size(), 2U);
-    const GroupHull one = hull_of(points, {.core = {.alpha = 0.15}, .one = true});
+    const GroupHull one = hull_of(points, {.core = {.alpha = 0.15}, .wanted = {.one = true}});
     ASSERT_EQ(one.shape.size(), 1U);
     // All parts are inside it, each by the middle of its first edge.
     for (const IndexPolygon& part : parts) {
@@ -174,8 +184,8 @@ TEST(GroupHulls, OneJoinsAllPartsAndIsTheLeastThatDoes) {
     }
     EXPECT_TRUE(
         std::any_of(polygons.begin(), polygons.end(), [&](std::size_t p) { return p != polygons[0]; }));
-    EXPECT_EQ(hull_of(points, {.one = true}).shape.size(), 1U);
-    const GroupHull both = hull_of(points, {.cover = true, .one = true});
+    EXPECT_EQ(hull_of(points, {.wanted = {.one = true}}).shape.size(), 1U);
+    const GroupHull both = hull_of(points, {.wanted = {.cover = true, .one = true}});
     EXPECT_EQ(both.shape.size(), 1U);
     EXPECT_TRUE(points_outside(both.shape, points).empty());
   }
@@ -183,11 +193,11 @@ TEST(GroupHulls, OneJoinsAllPartsAndIsTheLeastThatDoes) {
 
 TEST(GroupHulls, NothingIsWidenedWithoutNeedOrHope) {
   const std::vector<Point> square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  EXPECT_EQ(hull_of(square, {.core = {.alpha = 1}, .cover = true, .one = true}).limits.alpha, 1);
+  EXPECT_EQ(hull_of(square, {.core = {.alpha = 1}, .wanted = {.cover = true, .one = true}}).limits.alpha, 1);
   // No multiple of 0 is a limit, so that there is none in the end.
-  EXPECT_EQ(hull_of(square, {.core = {.alpha = 0}, .cover = true}).shape.size(), 1U);
+  EXPECT_EQ(hull_of(square, {.core = {.alpha = 0}, .wanted = {.cover = true}}).shape.size(), 1U);
   for (const std::vector<Point>& flat : {std::vector<Point>{}, {{1, 2}}, {{0, 0}, {1, 1}, {2, 2}}}) {
-    const GroupHull hull = hull_of(flat, {.cover = true, .one = true});
+    const GroupHull hull = hull_of(flat, {.wanted = {.cover = true, .one = true}});
     EXPECT_TRUE(hull.shape.empty());
     EXPECT_FALSE(hull.has_triangles);
     EXPECT_EQ(hull.area, 0);

@@ -154,6 +154,27 @@ class Shapes(unittest.TestCase):
         np.testing.assert_allclose(finer.sizes, np.array(shape.sizes) / 2, rtol=1e-12)
         self.assertLess(finer.area, shape.area)
 
+    def test_it_covers_all_points_and_joins_all_parts_on_demand(self):
+        points = np.concatenate([scattered(300, 1), scattered(300, 2) + [1.5, 0], [[0.5, 3]]])
+        everyone = shapely.geometry.MultiPoint(points)
+        for limit in ({}, {"alpha": 0.1}):
+            with self.subTest(limit=limit):
+                plain = concave_hull(points, **limit)
+                self.assertEqual(len(plain), 2)
+                covering = concave_hull(points, cover=True, **limit)
+                self.assertTrue(covering.to_shapely().buffer(1e-9).covers(everyone))
+                one = concave_hull(points, one=True, **limit)
+                self.assertEqual(len(one), 1)
+                self.assertTrue(plain.area < one.area < covering.area)
+                self.assertEqual(one.sizes is None, bool(limit))
+                labels = np.repeat([2, 1], [600, 1])
+                self.assertEqual(
+                    {label: len(hull) for label, hull in concave_hulls(points, labels, one=True).items()}, {1: 0, 2: 1}
+                )
+        self.assertEqual(len(concave_hull([(0, 0), (1, 1), (2, 2)], cover=True, one=True)), 0)
+        with self.assertRaisesRegex(ValueError, "alpha must be zero or more"):
+            concave_hull(points, alpha=-1, cover=True)
+
     def test_a_hull_for_every_label(self):
         points = np.concatenate([scattered(500, 1), scattered(400, 2) + [3, 0], [[9, 9]]])
         labels = np.repeat([7, -2, 5], [500, 400, 1])

@@ -31,6 +31,7 @@ struct TestAdapterCommand {
   std::vector<fs::path> adapters;     ///< more folders with manifests
   double timeout_s = 60;              ///< for one run
   std::int64_t mem_limit_mib = 4096;  ///< address space of the worker
+  std::size_t many_points = 20'000;   ///< of the largest set
 };
 
 std::string replace_all(std::string text, const std::string& what, const std::string& with) {
@@ -148,8 +149,8 @@ ExitCode test_adapter(const TestAdapterCommand& command) {
   const worker::Method& method = catalog.find(command.name);
   const ScratchFolder scratch("hullbench-contract");
   const auto timeout = std::chrono::milliseconds(static_cast<std::int64_t>(command.timeout_s * 1000));
-  const std::vector<run::Verdict> verdicts =
-      run::test_contract(method, {command.mem_limit_mib, std::nullopt}, timeout, scratch.path(), &print);
+  const std::vector<run::Verdict> verdicts = run::test_contract(
+      method, {{command.mem_limit_mib, std::nullopt}, timeout, command.many_points}, scratch.path(), &print);
   const auto kept = std::ranges::count_if(verdicts, [](const run::Verdict& verdict) { return verdict.kept; });
   if (verdicts.back().status == record::Status::kNotInstalled) return kExitNothing;
   const bool all = kept == static_cast<std::ptrdiff_t>(verdicts.size());
@@ -184,6 +185,11 @@ void add_test(CLI::App& app, Action& action) {
   options
       .add_option("--mem-limit", command->mem_limit_mib, "Memory limit of the method (address space) in MiB")
       ->check(memory_range())
+      ->capture_default_str();
+  options
+      .add_option("--points", command->many_points,
+                  "Points of the largest set; fewer are enough for a method that takes long")
+      ->check(CLI::Range(1'000, 1'000'000))
       ->capture_default_str();
   set_action(options, action, command, &test_adapter);
 }

@@ -58,7 +58,8 @@ json contract_of(const worker::Method& method, const PackCommand& command) {
                         {"status", to_string(verdict.status)},
                         {"words", verdict.words}});
   };
-  run::test_contract(method, {submission_plan().mem_limit_mib, std::nullopt}, timeout, scratch.path(), note);
+  run::test_contract(method, {{submission_plan().mem_limit_mib, std::nullopt}, timeout}, scratch.path(),
+                     note);
   return contract;
 }
 

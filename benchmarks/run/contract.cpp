@@ -18,8 +18,6 @@ namespace hullbench::run {
 namespace {
 
 constexpr std::size_t kPoints = 500;
-/// As many as a plan's larger cases have.
-constexpr std::size_t kManyPoints = 20'000;
 /// Coordinates are multiples of this, so that moving and scaling by powers of two rounds nothing.
 constexpr double kGrid = 0x1p-24;
 /// Two shapes are the same when the area in which they differ is at most this share of theirs: far above the
@@ -112,10 +110,9 @@ struct TooManyTimeouts {};
 
 class ContractTest {
  public:
-  ContractTest(const worker::Method& method, const worker::WorkerLimits& limits,
-               std::chrono::milliseconds timeout, fs::path scratch,
+  ContractTest(const worker::Method& method, const ContractLimits& limits, fs::path scratch,
                const std::function<void(const Verdict&)>& say)
-      : session_(method, limits), timeout_(timeout), scratch_(std::move(scratch)), say_(say) {}
+      : session_(method, limits.worker), limits_(limits), scratch_(std::move(scratch)), say_(say) {}
 
   std::vector<Verdict> run() {
     if (!start()) return verdicts_;
@@ -177,7 +174,7 @@ class ContractTest {
     const worker::LoadedPoints loaded =
         worker::write_points("contract-" + std::to_string(++loads_), points, scratch_);
     const worker::Attempt attempt =
-        session_.run(loaded, contract_parameters(*session_.info(), spacing), scratch_, timeout_);
+        session_.run(loaded, contract_parameters(*session_.info(), spacing), scratch_, limits_.timeout);
     Result result;
     result.status = attempt.status;
     result.wkb = attempt.wkb;
@@ -348,11 +345,11 @@ class ContractTest {
   }
 
   void limits() {
-    const Result result = hull(sample(kManyPoints, 6), spacing_of(kManyPoints));
+    const Result result = hull(sample(limits_.many_points, 6), spacing_of(limits_.many_points));
     std::ostringstream seen;
     seen << describe(result.shape) << ", after " << std::setprecision(2)
          << std::chrono::duration<double>(result.elapsed).count() << " s";
-    add("20000 points within the limits", result.fault, seen.str());
+    add(std::to_string(limits_.many_points) + " points within the limits", result.fault, seen.str());
   }
 
   void quit() {
@@ -362,7 +359,7 @@ class ContractTest {
   }
 
   worker::MethodSession session_;
-  std::chrono::milliseconds timeout_;
+  ContractLimits limits_;
   fs::path scratch_;
   const std::function<void(const Verdict&)>& say_;
   std::vector<Verdict> verdicts_;
@@ -373,10 +370,9 @@ class ContractTest {
 
 }  // namespace
 
-std::vector<Verdict> test_contract(const worker::Method& method, const worker::WorkerLimits& limits,
-                                   std::chrono::milliseconds timeout, const fs::path& scratch,
-                                   const std::function<void(const Verdict&)>& say) {
-  return ContractTest(method, limits, timeout, scratch, say).run();
+std::vector<Verdict> test_contract(const worker::Method& method, const ContractLimits& limits,
+                                   const fs::path& scratch, const std::function<void(const Verdict&)>& say) {
+  return ContractTest(method, limits, scratch, say).run();
 }
 
 }  // namespace hullbench::run

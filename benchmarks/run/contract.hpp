@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -19,12 +20,18 @@ struct Verdict {
   std::string words;                            ///< what was seen, and when it was not kept what to mend
 };
 
-/// Runs the whole contract on a worker of its own and hands every verdict to `say` as it comes. One run may
-/// take `timeout`. Files go into `scratch`. Stops after a worker that does not start and after the
+/// How far a method is tried.
+struct ContractLimits {
+  worker::WorkerLimits worker;
+  std::chrono::milliseconds timeout;  ///< for one run
+  std::size_t many_points = 20'000;  ///< of the largest set; by default as many as a plan's larger cases have
+};
+
+/// Runs the whole contract on a worker of its own and hands every verdict to `say` as it comes. Files go into
+/// `scratch`. Stops after a worker that does not start and after the
 /// second run that takes too long. Returns the verdicts.
 /// Throws Interrupted, and std::runtime_error when a file cannot be written.
-std::vector<Verdict> test_contract(const worker::Method& method, const worker::WorkerLimits& limits,
-                                   std::chrono::milliseconds timeout, const fs::path& scratch,
-                                   const std::function<void(const Verdict&)>& say);
+std::vector<Verdict> test_contract(const worker::Method& method, const ContractLimits& limits,
+                                   const fs::path& scratch, const std::function<void(const Verdict&)>& say);
 
 }  // namespace hullbench::run

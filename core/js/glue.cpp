@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "polylidar/concave_hull.hpp"
+#include "polylidar/widened_hull.hpp"
 
 /// Throws in JavaScript an error that says the `size` bytes of UTF-8 at `message`.
 extern "C" [[noreturn, clang::import_module("polylidar"), clang::import_name("fail")]] void fail(
@@ -101,7 +102,8 @@ std::vector<std::int32_t> labels;
 polylidar::Extractor extractor;
 Result result;
 
-/// Bit i of `given` says whether the i-th of alpha, maxEdgeLength, maxPerimeter and fillSingleTriangles was.
+/// Bit i of `given` says whether the i-th of alpha, maxEdgeLength, maxPerimeter and fillSingleTriangles was,
+/// and the next two what is wanted.
 Options options_of(std::uint32_t given, double detail, double alpha, double max_edge_length,
                    double max_perimeter, bool fill_single_triangles) {
   Options options;
@@ -111,6 +113,10 @@ Options options_of(std::uint32_t given, double detail, double alpha, double max_
   if ((given & 4U) != 0) options.max_perimeter = max_perimeter;
   if ((given & 8U) != 0) options.fill_single_triangles = fill_single_triangles;
   return options;
+}
+
+polylidar::Wanted wanted_of(std::uint32_t given) {
+  return {.cover = (given & 16U) != 0, .one = (given & 32U) != 0};
 }
 
 /// How many points are vertices of each polygon's triangles, inside it or on its rings: V of Euler's formula
@@ -174,8 +180,11 @@ extern "C" {
                                                          double max_edge_length, double max_perimeter,
                                                          bool fill_single_triangles) {
   result.clear();
-  result.add(extractor.extract(
-      points, options_of(given, detail, alpha, max_edge_length, max_perimeter, fill_single_triangles)));
+  const Options options =
+      options_of(given, detail, alpha, max_edge_length, max_perimeter, fill_single_triangles);
+  const polylidar::Wanted wanted = wanted_of(given);
+  result.add(wanted == polylidar::Wanted() ? extractor.extract(points, options)
+                                           : widened_hull(extractor, points, options, wanted).shape);
   result.sizes = extractor.chosen_sizes();
 }
 
@@ -187,7 +196,8 @@ extern "C" {
   const std::vector<std::int64_t> wide(labels.begin(), labels.end());
   for (const auto& [label, shape] : polylidar::concave_hulls(
            points, wide,
-           options_of(given, detail, alpha, max_edge_length, max_perimeter, fill_single_triangles))) {
+           options_of(given, detail, alpha, max_edge_length, max_perimeter, fill_single_triangles),
+           wanted_of(given))) {
     result.add(shape);
   }
 }

@@ -16,6 +16,7 @@
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
 #include "polylidar/geometry.hpp"
+#include "polylidar/widened_hull.hpp"
 
 namespace {
 
@@ -46,7 +47,8 @@ py::array to_array(std::vector<std::uint32_t> values) {
 
 py::tuple concave_hull(const PointArray& array, std::optional<double> alpha,
                        std::optional<double> max_edge_length, std::optional<double> max_perimeter,
-                       double detail, std::optional<bool> fill_single_triangles, unsigned threads) {
+                       double detail, std::optional<bool> fill_single_triangles, bool cover, bool one,
+                       unsigned threads) {
   const std::span<const Point> points = points_of(array);
   polylidar::IndexedMultiPolygon shape;
   std::optional<polylidar::ChosenSizes> sizes;
@@ -54,12 +56,15 @@ py::tuple concave_hull(const PointArray& array, std::optional<double> alpha,
   {
     const py::gil_scoped_release other_threads_may_run;
     polylidar::Extractor extractor;
-    shape = extractor.extract(points, {.alpha = alpha,
-                                       .max_edge_length = max_edge_length,
-                                       .max_perimeter = max_perimeter,
-                                       .detail = detail,
-                                       .fill_single_triangles = fill_single_triangles,
-                                       .threads = threads});
+    const polylidar::Options options = {.alpha = alpha,
+                                        .max_edge_length = max_edge_length,
+                                        .max_perimeter = max_perimeter,
+                                        .detail = detail,
+                                        .fill_single_triangles = fill_single_triangles,
+                                        .threads = threads};
+    shape = cover || one
+                ? polylidar::widened_hull(extractor, points, options, {.cover = cover, .one = one}).shape
+                : extractor.extract(points, options);
     sizes = extractor.chosen_sizes();
     area = polylidar::area(polylidar::to_coordinates(shape, points));
   }
@@ -74,7 +79,8 @@ py::list concave_hulls(const PointArray& array,
                        const py::array_t<std::int64_t, py::array::c_style>& label_array,
                        const std::optional<double>& alpha, const std::optional<double>& max_edge_length,
                        const std::optional<double>& max_perimeter, double detail,
-                       const std::optional<bool>& fill_single_triangles, unsigned threads) {
+                       const std::optional<bool>& fill_single_triangles, bool cover, bool one,
+                       unsigned threads) {
   const std::span<const Point> points = points_of(array);
   if (label_array.ndim() != 1) throw py::value_error("labels must have the shape (n,)");
   const std::span<const std::int64_t> labels(label_array.data(),
@@ -89,7 +95,8 @@ py::list concave_hulls(const PointArray& array,
                                       .max_perimeter = max_perimeter,
                                       .detail = detail,
                                       .fill_single_triangles = fill_single_triangles,
-                                      .threads = threads});
+                                      .threads = threads},
+                                     {.cover = cover, .one = one});
     for (const polylidar::LabelledHull& hull : hulls) {
       areas.push_back(polylidar::area(polylidar::to_coordinates(hull.shape, points)));
     }
@@ -123,12 +130,12 @@ PYBIND11_MODULE(_core, module) {
   module.def(
       "concave_hull", &concave_hull, py::arg("points").noconvert(), py::arg("alpha"),
       py::arg("max_edge_length"), py::arg("max_perimeter"), py::arg("detail"),
-      py::arg("fill_single_triangles"), py::arg("threads"),
+      py::arg("fill_single_triangles"), py::arg("cover"), py::arg("one"), py::arg("threads"),
       "The arrays vertices, ring_ends and polygon_ends of the shape, its area, and the least, the median "
       "and the largest size that was chosen, or None.");
   module.def("concave_hulls", &concave_hulls, py::arg("points").noconvert(), py::arg("labels").noconvert(),
              py::arg("alpha"), py::arg("max_edge_length"), py::arg("max_perimeter"), py::arg("detail"),
-             py::arg("fill_single_triangles"), py::arg("threads"),
+             py::arg("fill_single_triangles"), py::arg("cover"), py::arg("one"), py::arg("threads"),
              "Of every label the label, the three arrays of its shape, and its area.");
   module.def("delaunay", &delaunay, py::arg("points").noconvert(), "The triangles, three indices a row.");
 }

@@ -11,6 +11,7 @@
 #include "delaunay_builder.hpp"
 #include "interior.hpp"
 #include "options_check.hpp"
+#include "polylidar/widened_hull.hpp"
 #include "region.hpp"
 
 namespace polylidar {
@@ -229,12 +230,15 @@ const Statistics& Extractor::statistics() const {
   return state_->statistics;
 }
 
-IndexedMultiPolygon concave_hull(std::span<const Point> points, const Options& options) {
-  return Extractor().extract(points, options);
+IndexedMultiPolygon concave_hull(std::span<const Point> points, const Options& options,
+                                 const Wanted& wanted) {
+  Extractor extractor;
+  if (wanted == Wanted()) return extractor.extract(points, options);
+  return widened_hull(extractor, points, options, wanted).shape;
 }
 
 std::vector<LabelledHull> concave_hulls(std::span<const Point> points, std::span<const std::int64_t> labels,
-                                        const Options& options) {
+                                        const Options& options, const Wanted& wanted) {
   if (labels.size() != points.size()) throw std::invalid_argument("there must be one label a point");
   if (points.size() > kMaxPoints) throw std::invalid_argument("more than 2^28 points: split the input");
   checked_limits(options);
@@ -264,7 +268,7 @@ std::vector<LabelledHull> concave_hulls(std::span<const Point> points, std::span
         std::span(order).subspan(begins[h], begins[h + 1] - begins[h]);
     std::vector<Point> own(members.size());
     std::transform(members.begin(), members.end(), own.begin(), [&](std::uint32_t i) { return points[i]; });
-    hulls[h].shape = concave_hull(own, of_one);
+    hulls[h].shape = concave_hull(own, of_one, wanted);
     for (std::uint32_t& vertex : hulls[h].shape.vertices) vertex = members[vertex];
   });
   return hulls;

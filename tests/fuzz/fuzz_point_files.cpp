@@ -69,8 +69,8 @@ void make_shapes(const PointFile& file, std::uint8_t choice) {
   constexpr std::size_t kMany = 400;
   if (file.points.size() > kMany || file.labels.size() > kMany) return;
   HullOptions options;
-  options.cover = (choice & 1U) != 0;
-  options.one = (choice & 2U) != 0;
+  options.wanted.cover = (choice & 1U) != 0;
+  options.wanted.one = (choice & 2U) != 0;
   if ((choice & 4U) != 0) options.simplify = 0.5;
   if ((choice & 8U) != 0) options.core.max_edge_length = 1;
   if ((choice & 16U) != 0) options.max_parts = 2;
@@ -84,7 +84,7 @@ void make_shapes(const PointFile& file, std::uint8_t choice) {
   }
   std::vector<std::string> features;
   for (std::size_t g = 0; g < hulls.size(); ++g) {
-    expect(!options.one || hulls[g].shape.size() <= 1, "one polygon is several");
+    expect(!options.wanted.one || hulls[g].shape.size() <= 1, "one polygon is several");
     Properties properties;
     if (!file.labels.empty()) properties.add("label", std::string_view(file.labels[g]));
     properties.add("area", hulls[g].area);

@@ -122,6 +122,29 @@ test("no points, too few and those on a line have no hull", () => {
   }
 });
 
+test("it covers all points and joins all parts on demand", () => {
+  const points = [];
+  for (const left of [0, 4]) for (let x = 0; x < 3; x++) for (let y = 0; y < 3; y++) points.push([left + x, y]);
+  points.push([1, 9]);
+  const plain = concaveHull(points, { alpha: 0.8 });
+  const covering = concaveHull(points, { alpha: 0.8, cover: true });
+  const one = concaveHull(points, { alpha: 0.8, one: true });
+  assert.deepEqual(
+    [plain, one].map((hull) => hull.polygonEnds.length),
+    [2, 1],
+  );
+  assert.deepEqual([plain.area, one.area], [8, 12]);
+  assert.ok(covering.vertices.includes(points.length - 1));
+  assert.ok(covering.area > one.area);
+  const by_label = concaveHulls(
+    points,
+    points.map(([x]) => (x < 3 ? "a" : "b")),
+    { alpha: 0.8, cover: true },
+  );
+  assert.ok(by_label[0].hull.vertices.includes(points.length - 1));
+  assert.equal(by_label[1].hull.area, 4);
+});
+
 test("errors say what the core says, and leave the module in order", () => {
   const points = square(100);
   const expected = plain(concaveHull(points));

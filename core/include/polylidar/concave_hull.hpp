@@ -69,6 +69,18 @@ struct Options {
   friend bool operator==(const Options&, const Options&) = default;
 };
 
+/// What a hull must have. The limit is widened until it does (polylidar/widened_hull.hpp). If both are asked
+/// for, the hull first covers all points.
+struct Wanted {
+  bool cover = false;  ///< no point is outside
+  /// What the limit gave before is in one polygon, and only that one is kept. A wider limit may add parts
+  /// that lie apart from it; these are dropped.
+  bool one = false;
+
+  /// Field by field.
+  friend bool operator==(const Wanted&, const Wanted&) = default;
+};
+
 /// A multipolygon as three flat arrays. Its vertices are indices into the caller's points. Every polygon is
 /// valid in the sense of OGC 06-103r4; shells run counter-clockwise, holes clockwise; the first vertex of a
 /// ring is not repeated.
@@ -104,7 +116,8 @@ MultiPolygon to_coordinates(const IndexedMultiPolygon& shape, std::span<const Po
 /// std::invalid_argument if a coordinate is not finite (naming the first such index), if coordinates span
 /// more than the supported range (see Extractor), if an option is out of its range, or if there are more than
 /// 2^28 points.
-IndexedMultiPolygon concave_hull(std::span<const Point> points, const Options& options = {});
+IndexedMultiPolygon concave_hull(std::span<const Point> points, const Options& options = {},
+                                 const Wanted& wanted = {});
 
 /// One label's shape.
 struct LabelledHull {
@@ -117,7 +130,7 @@ struct LabelledHull {
 /// O(n log n). Throws as concave_hull, with indices into all points, and std::invalid_argument if there are
 /// not as many labels as points.
 std::vector<LabelledHull> concave_hulls(std::span<const Point> points, std::span<const std::int64_t> labels,
-                                        const Options& options = {});
+                                        const Options& options = {}, const Wanted& wanted = {});
 
 /// How a shape was extracted. It changes the time, not the result.
 enum class Way : std::uint8_t {

@@ -50,7 +50,8 @@ function write_points(exports, xy) {
 /** Options as the arguments of the functions that extract. */
 function words(options) {
   const limits = [options.alpha, options.maxEdgeLength, options.maxPerimeter, options.fillSingleTriangles];
-  const given = limits.reduce((bits, value, i) => (value == null ? bits : bits | (1 << i)), 0);
+  const wanted = (options.cover ? 16 : 0) | (options.one ? 32 : 0);
+  const given = limits.reduce((bits, value, i) => (value == null ? bits : bits | (1 << i)), wanted);
   return [given, options.detail ?? 1, ...limits.slice(0, 3).map((value) => value ?? 0), limits[3] ? 1 : 0];
 }
 

@@ -23,6 +23,13 @@ export interface Options {
    * limit is chosen, false where one is given.
    */
   fillSingleTriangles?: boolean;
+  /** Widen the limit, just enough to leave no point outside. One far outlier makes the shape coarse. Default: false. */
+  cover?: boolean;
+  /**
+   * Widen the limit, just enough to join all parts; what stays apart is dropped. This and `cover` take some 10 to 30 times
+   * as long. Default: false.
+   */
+  one?: boolean;
 }
 
 /** The limit that was chosen, the size of a triangle as a length, where the points are densest, usual and sparsest. */

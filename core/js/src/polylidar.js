@@ -1,7 +1,7 @@
 // Concave hulls of points in the plane. polylidar.d.ts says what everything means.
 import * as module from "./module.js";
 
-const OPTIONS = ["detail", "alpha", "maxEdgeLength", "maxPerimeter", "fillSingleTriangles"];
+const OPTIONS = ["detail", "alpha", "maxEdgeLength", "maxPerimeter", "fillSingleTriangles", "cover", "one"];
 // The concavity that the core's default stands for: concaveman's default.
 const USUAL_CONCAVITY = 2;
 // concaveman takes 0 for "as detailed as can be"; of less than this nothing is left.

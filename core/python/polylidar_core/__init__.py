@@ -50,6 +50,8 @@ def concave_hull(
     max_perimeter: float | None = None,
     detail: float = 1.0,
     fill_single_triangles: bool | None = None,
+    cover: bool = False,
+    one: bool = False,
     threads: int | None = 1,
 ) -> MultiPolygon:
     """The concave hull of points: their Delaunay triangulation, the triangles that all limits keep, and the outline
@@ -76,6 +78,9 @@ def concave_hull(
         half the size. A larger one makes every limit smaller. Not used where a limit is given.
     fill_single_triangles: whether a triangle beyond a limit is kept all the same when its three neighbours are within;
         None: only where the limit is chosen.
+    cover: whether the limit is widened, just enough to leave no point outside. One far outlier makes the shape coarse.
+    one: whether the limit is widened, just enough to join all parts; what stays apart is dropped. Both take some 10 to
+        30 times as long.
     threads: how many threads compute, one or more; None: as many as this process may use processors. The result does
         not depend on it. Worth it from some 10,000 points on.
 
@@ -93,7 +98,7 @@ def concave_hull(
     return MultiPolygon(
         array,
         *_core.concave_hull(
-            array, alpha, max_edge_length, max_perimeter, detail, fill_single_triangles, _thread_count(threads)
+            array, alpha, max_edge_length, max_perimeter, detail, fill_single_triangles, cover, one, _thread_count(threads)
         ),
     )
 
@@ -107,6 +112,8 @@ def concave_hulls(
     max_perimeter: float | None = None,
     detail: float = 1.0,
     fill_single_triangles: bool | None = None,
+    cover: bool = False,
+    one: bool = False,
     threads: int | None = 1,
 ) -> dict[Any, MultiPolygon]:
     """A concave hull for every label, as concave_hull makes it of that label's points alone, by ascending label. Shapes
@@ -128,7 +135,7 @@ def concave_hulls(
     array = as_points(points)
     numbers, names = numbered(labels, len(array))
     hulls = _core.concave_hulls(
-        array, numbers, alpha, max_edge_length, max_perimeter, detail, fill_single_triangles, _thread_count(threads)
+        array, numbers, alpha, max_edge_length, max_perimeter, detail, fill_single_triangles, cover, one, _thread_count(threads)
     )
     return {
         number if names is None else names[number]: MultiPolygon(array, vertices, rings, parts, area)

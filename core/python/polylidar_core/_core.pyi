@@ -10,6 +10,8 @@ def concave_hull(
     max_perimeter: float | None,
     detail: float,
     fill_single_triangles: bool | None,
+    cover: bool,
+    one: bool,
     threads: int,
 ) -> tuple[
     npt.NDArray[np.uint32], npt.NDArray[np.uint32], npt.NDArray[np.uint32], float, tuple[float, float, float] | None
@@ -22,6 +24,8 @@ def concave_hulls(
     max_perimeter: float | None,
     detail: float,
     fill_single_triangles: bool | None,
+    cover: bool,
+    one: bool,
     threads: int,
 ) -> list[tuple[int, npt.NDArray[np.uint32], npt.NDArray[np.uint32], npt.NDArray[np.uint32], float]]: ...
 def delaunay(points: npt.NDArray[np.float64]) -> npt.NDArray[np.uint32]: ...

@@ -24,7 +24,7 @@ def concave_hulls(points: gpd.GeoDataFrame | gpd.GeoSeries, by: Any = None, **op
     points: geometries of the type Point.
     by: what groupby() takes: the name of a column or several, or one label a point, of any type. Points without a label
         belong to no group. None: all points are one group.
-    options: alpha, max_edge_length, max_perimeter, detail, fill_single_triangles and threads, as of
+    options: alpha, max_edge_length, max_perimeter, detail, fill_single_triangles, cover, one and threads, as of
         polylidar_core.concave_hulls.
 
     UserWarning: the coordinate system is one of degrees. ValueError: as of polylidar_core.concave_hull; a geometry is

@@ -262,7 +262,8 @@ class IndexRun {
 
   bool is_worth_streaming(const std::string& path) const {
     const HullOptions& hull = command_.shape.hull;
-    if (hull.one || hull.cover || hull.min_triangles > 0) return false;  // these need all triangles
+    if (hull.wanted.one || hull.wanted.cover || hull.min_triangles > 0)
+      return false;  // these need all triangles
     std::error_code error;
     const std::uintmax_t size = fs::file_size(path, error);
     return !error && size >= kWorthStreaming && is_read_in_parts(path, options_);
@@ -369,7 +370,7 @@ class UnionRun {
     check_has_properties(output_);
     output_.check_against(command_.inputs);
     check_readable_again(command_.inputs, "--union");
-    if (shape.hull.one || shape.hull.cover || shape.hull.min_triangles > 0) {
+    if (shape.hull.wanted.one || shape.hull.wanted.cover || shape.hull.min_triangles > 0) {
       throw ConfigurationError(
           "--union does not go with --one, --cover and --min-triangles, which need all triangles; leave one "
           "of them out");

@@ -73,9 +73,9 @@ void add_shape_options(CLI::App& app, ShapeChoice& choice) {
   for (const char* limit : {"--alpha", "--max-edge-length", "--max-perimeter"}) {
     detail->excludes(app.get_option(limit));
   }
-  app.add_flag("--one", hull.one, "Make one polygon: widen the limit just enough to join all parts");
+  app.add_flag("--one", hull.wanted.one, "Make one polygon: widen the limit just enough to join all parts");
   CLI::Option* const cover = app.add_flag(
-      "--cover", hull.cover, "Leave no point outside: widen the limit just enough to cover them all");
+      "--cover", hull.wanted.cover, "Leave no point outside: widen the limit just enough to cover them all");
   app.add_option("--max-parts", hull.max_parts, "Keep only this many polygons, the largest by area")
       ->check(above_zero());
   app.add_option("--min-area", hull.min_area,
@@ -229,7 +229,7 @@ void check_magnitude(std::span<const Point> points) {
 LocatedHulls locate_hulls(const PointFile& file, const ShapeChoice& choice, bool is_grouped, unsigned threads,
                           const OnStep& on_step) {
   HullOptions options = choice.hull;
-  if (options.one || options.cover || options.simplify > 0) check_magnitude(file.points);
+  if (options.wanted.one || options.wanted.cover || options.simplify > 0) check_magnitude(file.points);
   LocatedHulls hulls;
   hulls.latitude = middle_latitude(chosen_crs(choice, file.crs), file.points);
   if (hulls.latitude) hulls.metres = to_metres(file.points, *hulls.latitude);

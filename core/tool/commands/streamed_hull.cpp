@@ -64,7 +64,7 @@ class StreamRun {
     check_readable_again(inputs, "--stream");
     if (!command_.by.empty()) refuse("--stream", "--by");
     if (command_.keep_outliers) refuse("--stream", "--keep-outliers");
-    if (hull.one || hull.cover) refuse("--stream", "--one and --cover");
+    if (hull.wanted.one || hull.wanted.cover) refuse("--stream", "--one and --cover");
     if (hull.min_triangles > 0) refuse("--stream", "--min-triangles");
     if (hull.min_area > 0 || hull.max_parts || hull.simplify > 0) {
       refuse("--stream", "--min-area, --max-parts and --simplify");

@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <exception>
-#include <limits>
 #include <mutex>
 #include <numeric>
 #include <thread>
-#include <unordered_map>
 #include <utility>
 
-#include "polylidar/point_locator.hpp"
 #include "tool/shapes/simplify.hpp"
 
 namespace polylidar::tool {
@@ -19,136 +15,6 @@ namespace {
 
 // Below this a thread's start costs more than it gives (polylidar::Options).
 constexpr std::size_t kWorthThreads = 10000;
-
-/// `options` with limits wider by `factor`; those of the convex hull when it is infinite.
-Options widened(Options options, double factor) {
-  const bool is_chosen = !options.alpha && !options.max_edge_length && !options.max_perimeter;
-  if (std::isinf(factor)) {
-    options.alpha = kNoLimit;
-    options.max_edge_length = options.max_perimeter = std::nullopt;
-    return options;
-  }
-  if (is_chosen) options.detail /= factor;
-  for (std::optional<double>* limit : {&options.alpha, &options.max_edge_length, &options.max_perimeter}) {
-    if (*limit) **limit *= factor;
-  }
-  return options;
-}
-
-/// The least factor from `least` on for which `holds`, which stays true once it is: to a thousandth.
-template <class Holds>
-double least_factor(double least, const Holds& holds) {
-  if (holds(least)) return least;
-  double low = least;
-  double high = 2 * least;
-  while (!holds(high)) {
-    if (high > 0x1p60) return std::numeric_limits<double>::infinity();
-    low = high;
-    high *= 2;
-  }
-  while (high > low * 1.001) {
-    const double middle = std::sqrt(low) * std::sqrt(high);
-    (holds(middle) ? high : low) = middle;
-  }
-  return high;
-}
-
-/// Which polygon a boundary edge, in its direction, belongs to.
-class PolygonOfEdge {
- public:
-  explicit PolygonOfEdge(const IndexShape& shape) {
-    const auto add = [&](const IndexRing& ring, std::size_t polygon) {
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        polygons_[key(ring[i], ring[(i + 1) % ring.size()])] = polygon;
-      }
-    };
-    for (std::size_t p = 0; p < shape.size(); ++p) {
-      add(shape[p].shell, p);
-      for (const IndexRing& hole : shape[p].holes) add(hole, p);
-    }
-  }
-
-  std::optional<std::size_t> find(std::uint32_t from, std::uint32_t to) const {
-    const auto found = polygons_.find(key(from, to));
-    return found == polygons_.end() ? std::nullopt : std::optional(found->second);
-  }
-
- private:
-  static std::uint64_t key(std::uint32_t from, std::uint32_t to) { return std::uint64_t{from} << 32U | to; }
-
-  std::unordered_map<std::uint64_t, std::size_t> polygons_;
-};
-
-/// One group's points, triangulated once, and shapes of them under wider and wider limits.
-class Widening {
- public:
-  Widening(Extractor& extractor, std::span<const Point> points, const Options& options, const OnStep& on_step)
-      : extractor_(extractor), points_(points), options_(options), on_step_(on_step) {
-    extractor_.triangulate(points_, options_.threads);
-  }
-
-  IndexShape shape(double factor) {
-    if (on_step_) on_step_("widening the limit: step " + std::to_string(++steps_));
-    extractor_.extract_regions(widened(options_, factor));
-    return polygons_of(extractor_.extract_polygons());
-  }
-
-  /// The least factor with every point covered.
-  double cover() {
-    // Who is covered stays covered.
-    std::vector<std::uint32_t> outside = points_outside(shape(1), points_);
-    if (outside.empty() || !extractor_.has_triangles()) return 1;
-    return least_factor(1, [&](double factor) {
-      const IndexShape wider = shape(factor);
-      const PointLocator locator(to_coordinates(wider, points_));
-      std::vector<std::uint32_t> left;
-      std::copy_if(outside.begin(), outside.end(), std::back_inserter(left),
-                   [&](std::uint32_t i) { return !locator.contains(points_[i]); });
-      if (left.empty()) return true;
-      outside = std::move(left);
-      return false;
-    });
-  }
-
-  /// The least factor from `least` on with all polygons that `least` gives in one.
-  double one(double least) {
-    const IndexShape parts = shape(least);
-    if (parts.size() < 2) return least;
-    return least_factor(least, [&](double factor) {
-      const IndexShape wider = shape(factor);
-      return wider.size() == 1 || polygon_with_all(parts, wider).has_value();
-    });
-  }
-
-  /// The polygon of `wider` that has all `parts`, which it covers.
-  std::optional<std::size_t> polygon_with_all(const IndexShape& parts, const IndexShape& wider) const {
-    const PointLocator locator(to_coordinates(wider, points_));
-    const PolygonOfEdge polygon_of_edge(wider);
-    std::optional<std::size_t> all;
-    for (const IndexPolygon& part : parts) {
-      // An edge of the part is an edge of that polygon or inside it. A vertex would not do: two may meet
-      // there.
-      const std::uint32_t from = part.shell[0];
-      const std::uint32_t to = part.shell[1];
-      std::optional<std::size_t> polygon = polygon_of_edge.find(from, to);
-      if (!polygon) {
-        const Point& a = points_[from];
-        const Point& b = points_[to];
-        polygon = locator.polygon_of({a.x / 2 + b.x / 2, a.y / 2 + b.y / 2});
-      }
-      if (!polygon || (all && *all != *polygon)) return {};
-      all = polygon;
-    }
-    return all;
-  }
-
- private:
-  Extractor& extractor_;
-  std::span<const Point> points_;
-  Options options_;
-  const OnStep& on_step_;
-  int steps_ = 0;
-};
 
 void drop_polygons_of_few_triangles(IndexShape& shape, const std::vector<std::size_t>& triangles,
                                     std::size_t least) {
@@ -166,28 +32,22 @@ GroupHull extracted(Extractor& extractor, std::span<const Point> points, const H
                     const OnStep& on_step) {
   GroupHull hull;
   if (on_step) on_step("triangulating " + std::to_string(points.size()) + " points");
-  Options used = options.core;
-  std::optional<std::size_t> only;  // polygon
-  if (options.cover || options.one) {
-    Widening widening(extractor, points, options.core, on_step);
-    const double covering = options.cover ? widening.cover() : 1;
-    const double factor = options.one ? widening.one(covering) : covering;
-    const IndexShape parts = options.one ? widening.shape(covering) : IndexShape();
-    used = widened(options.core, factor);
-    hull.shape = widening.shape(factor);
-    if (options.one && hull.shape.size() > 1) only = widening.polygon_with_all(parts, hull.shape);
+  hull.limits = options.core;
+  if (options.wanted.cover || options.wanted.one) {
+    int steps = 0;
+    const auto tell = [&] {
+      if (on_step) on_step("widening the limit: step " + std::to_string(++steps));
+    };
+    WidenedHull widened = widened_hull(extractor, points, options.core, options.wanted, tell);
+    hull.shape = polygons_of(widened.shape);
+    hull.limits = widened.options;
   } else {
-    hull.shape = polygons_of(extractor.extract(points, used));
+    hull.shape = polygons_of(extractor.extract(points, options.core));
   }
   hull.extracted = hull.shape.size();
   hull.has_triangles = extractor.has_triangles();
   hull.by_outlines = extractor.statistics().by_outlines;
   hull.sizes = extractor.chosen_sizes();
-  hull.limits = used;
-  if (only) {
-    IndexShape one = {std::move(hull.shape[*only])};
-    hull.shape = std::move(one);
-  }
   if (options.min_triangles > 1) {
     drop_polygons_of_few_triangles(hull.shape, extractor.count_triangles(), options.min_triangles);
   }

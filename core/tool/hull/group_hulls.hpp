@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "polylidar/concave_hull.hpp"
+#include "polylidar/widened_hull.hpp"
 #include "tool/shapes/index_shape.hpp"
 
 namespace polylidar::tool {
@@ -18,10 +19,7 @@ namespace polylidar::tool {
 struct HullOptions {
   /// Of the core; `threads` is not used here.
   Options core = {};
-  /// The limit is widened until the shape leaves no point of its group outside.
-  bool cover = false;
-  /// The limit is widened until what it gave before is in one polygon, and only that one is kept.
-  bool one = false;
+  Wanted wanted = {};
   std::size_t min_triangles = 0;  ///< polygons of fewer Delaunay triangles are dropped
   double min_area = 0;            ///< squared units; smaller holes are filled, then smaller polygons dropped
   std::optional<std::size_t> max_parts = {};  ///< only so many polygons are kept, the largest
@@ -52,11 +50,6 @@ using OnStep = std::function<void(const std::string& doing)>;
 /// one. Groups with many points have all `threads` >= 1 to themselves, the others share them. `on_step` is
 /// told of each group that is done; without groups, of the steps to the hull. Coordinates must be finite;
 /// throws std::invalid_argument where a group's span more than concave_hull() takes.
-///
-/// `cover` and `one` widen the limit: all that are given by one factor, or `detail` by its inverse. No
-/// triangle is lost by that, so each holds from some factor on, and the least one is found to a thousandth by
-/// doubling and halving; beyond 2^60 there is no limit, and the shape is the convex hull. One polygon: "what
-/// the limit gave before" are its polygons; the rest, which a wider limit adds apart from them, is dropped.
 std::vector<GroupHull> group_hulls(std::span<const Point> points, std::span<const std::uint32_t> groups,
                                    std::size_t group_count, const HullOptions& options, unsigned threads,
                                    const OnStep& on_step = {});

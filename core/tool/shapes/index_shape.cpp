@@ -5,7 +5,6 @@
 #include <numeric>
 #include <utility>
 
-#include "polylidar/point_locator.hpp"
 #include "tool/hull/degrees.hpp"
 
 namespace polylidar::tool {
@@ -45,15 +44,6 @@ MultiPolygon to_coordinates(const IndexShape& shape, std::span<const Point> poin
     for (const IndexRing& hole : polygon.holes) polygons.back().holes.push_back(coordinates(hole, points));
   }
   return polygons;
-}
-
-std::vector<std::uint32_t> points_outside(const IndexShape& shape, std::span<const Point> points) {
-  const PointLocator locator(to_coordinates(shape, points));
-  std::vector<std::uint32_t> outside;
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    if (!locator.contains(points[i])) outside.push_back(i);
-  }
-  return outside;
 }
 
 double signed_area(const IndexRing& ring, std::span<const Point> points, const Latitude& latitude) {

@@ -31,9 +31,6 @@ IndexShape polygons_of(const IndexedMultiPolygon& shape);
 /// `shape` with coordinates.
 MultiPolygon to_coordinates(const IndexShape& shape, std::span<const Point> points);
 
-/// The points that `shape` leaves outside, by ascending index.
-std::vector<std::uint32_t> points_outside(const IndexShape& shape, std::span<const Point> points);
-
 /// The latitude of points that are metres of to_metres(); none of points in a plane.
 using Latitude = std::optional<double>;
 

@@ -1,0 +1,30 @@
+// Hulls that leave no point outside, or are one polygon: the limit is widened until they do.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "polylidar/concave_hull.hpp"
+
+namespace polylidar {
+
+/// A hull, and the limit that gave it.
+struct WidenedHull {
+  IndexedMultiPolygon shape;  ///< by indices into the points
+  /// The caller's, with wider limits, or with less detail if none was given.
+  Options options;
+};
+
+/// The hull of `points` with the least limit that gives what is wanted, to a thousandth. All limits that are
+/// given are widened by one factor; if none is given, `detail` is divided by it. No triangle is lost by that,
+/// so what is wanted holds from some factor on, and doubling and halving finds it. From a factor of 2^60 on
+/// there is no limit, and the shape is the convex hull. The shape is empty if all points lie on a line.
+///
+/// O(n log n) for each of about 10 to 30 steps, of which only the first one triangulates. `on_step` is called
+/// before each step; what it throws ends the work. Afterwards `extractor` is as after extract_polygons() with
+/// WidenedHull::options, so chosen_sizes() tells the sizes. Throws as concave_hull. `points` must stay in
+/// place as long as `extractor` is asked for triangles.
+WidenedHull widened_hull(Extractor& extractor, std::span<const Point> points, const Options& options,
+                         const Wanted& wanted, const std::function<void()>& on_step = {});
+
+}  // namespace polylidar

@@ -1,0 +1,189 @@
+#include "polylidar/widened_hull.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <numeric>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "options_check.hpp"
+#include "polylidar/point_locator.hpp"
+
+namespace polylidar {
+
+namespace {
+
+/// `options` with limits wider by `factor`; those of the convex hull if it is infinite.
+Options widened(Options options, double factor) {
+  const bool is_chosen = !detail::is_any_limit_given(options);
+  if (std::isinf(factor)) {
+    options.alpha = kNoLimit;
+    options.max_edge_length = options.max_perimeter = std::nullopt;
+    return options;
+  }
+  if (is_chosen) options.detail /= factor;
+  for (std::optional<double>* limit : {&options.alpha, &options.max_edge_length, &options.max_perimeter}) {
+    if (*limit) **limit *= factor;
+  }
+  return options;
+}
+
+/// The least factor from `least` on for which `holds`, which stays true once it is: to a thousandth.
+template <class Holds>
+double least_factor(double least, const Holds& holds) {
+  if (holds(least)) return least;
+  double low = least;
+  double high = 2 * least;
+  while (!holds(high)) {
+    if (high > 0x1p60) return kNoLimit;
+    low = high;
+    high *= 2;
+  }
+  while (high > low * 1.001) {
+    const double middle = std::sqrt(low) * std::sqrt(high);
+    (holds(middle) ? high : low) = middle;
+  }
+  return high;
+}
+
+/// The rings of polygon `polygon`, shell first, as [first, last).
+std::pair<std::size_t, std::size_t> rings_of(const IndexedMultiPolygon& shape, std::size_t polygon) {
+  return {polygon == 0 ? 0 : shape.polygon_ends[polygon - 1], shape.polygon_ends[polygon]};
+}
+
+/// The vertices of a ring.
+std::span<const std::uint32_t> ring_of(const IndexedMultiPolygon& shape, std::size_t ring) {
+  const std::size_t begin = ring == 0 ? 0 : shape.ring_ends[ring - 1];
+  return std::span(shape.vertices).subspan(begin, shape.ring_ends[ring] - begin);
+}
+
+/// Which polygon a boundary edge, in its direction, belongs to.
+class PolygonOfEdge {
+ public:
+  explicit PolygonOfEdge(const IndexedMultiPolygon& shape) {
+    for (std::size_t polygon = 0; polygon < shape.polygon_count(); ++polygon) {
+      const auto [first, last] = rings_of(shape, polygon);
+      for (std::size_t r = first; r < last; ++r) {
+        const std::span<const std::uint32_t> ring = ring_of(shape, r);
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+          polygons_[key(ring[i], ring[(i + 1) % ring.size()])] = polygon;
+        }
+      }
+    }
+  }
+
+  std::optional<std::size_t> find(std::uint32_t from, std::uint32_t to) const {
+    const auto found = polygons_.find(key(from, to));
+    return found == polygons_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+ private:
+  static std::uint64_t key(std::uint32_t from, std::uint32_t to) { return std::uint64_t{from} << 32U | to; }
+
+  std::unordered_map<std::uint64_t, std::size_t> polygons_;
+};
+
+/// `shape` without all its other polygons.
+IndexedMultiPolygon only(const IndexedMultiPolygon& shape, std::size_t polygon) {
+  IndexedMultiPolygon one;
+  const auto [first, last] = rings_of(shape, polygon);
+  for (std::size_t r = first; r < last; ++r) {
+    const std::span<const std::uint32_t> ring = ring_of(shape, r);
+    one.vertices.insert(one.vertices.end(), ring.begin(), ring.end());
+    one.ring_ends.push_back(static_cast<std::uint32_t>(one.vertices.size()));
+  }
+  one.polygon_ends = {static_cast<std::uint32_t>(one.ring_ends.size())};
+  return one;
+}
+
+/// Points, triangulated once, and their shapes under wider and wider limits.
+class Widening {
+ public:
+  Widening(Extractor& extractor, std::span<const Point> points, const Options& options,
+           const std::function<void()>& on_step)
+      : extractor_(extractor), points_(points), options_(options), on_step_(on_step) {
+    extractor_.triangulate(points_, options_.threads);
+  }
+
+  /// Valid until the next one.
+  const IndexedMultiPolygon& shape(double factor) {
+    if (on_step_) on_step_();
+    extractor_.extract_regions(widened(options_, factor));
+    return extractor_.extract_polygons();
+  }
+
+  /// The least factor with every point covered.
+  double cover() {
+    if (!extractor_.has_triangles()) return 1;
+    std::vector<std::uint32_t> outside(points_.size());
+    std::iota(outside.begin(), outside.end(), 0U);
+    return least_factor(1, [&](double factor) {
+      const PointLocator locator(to_coordinates(shape(factor), points_));
+      std::vector<std::uint32_t> left;
+      std::copy_if(outside.begin(), outside.end(), std::back_inserter(left),
+                   [&](std::uint32_t i) { return !locator.contains(points_[i]); });
+      if (left.empty()) return true;
+      outside = std::move(left);  // who is covered stays covered
+      return false;
+    });
+  }
+
+  /// The least factor from `least` on with all polygons that `least` gives in one.
+  double one(double least) {
+    const IndexedMultiPolygon parts = shape(least);
+    if (parts.polygon_count() < 2) return least;
+    return least_factor(least, [&](double factor) {
+      const IndexedMultiPolygon& wider = shape(factor);
+      return wider.polygon_count() == 1 || polygon_with_all(parts, wider).has_value();
+    });
+  }
+
+  /// The polygon of `wider` that has all `parts`, which it covers.
+  std::optional<std::size_t> polygon_with_all(const IndexedMultiPolygon& parts,
+                                              const IndexedMultiPolygon& wider) const {
+    const PointLocator locator(to_coordinates(wider, points_));
+    const PolygonOfEdge polygon_of_edge(wider);
+    std::optional<std::size_t> all;
+    for (std::size_t part = 0; part < parts.polygon_count(); ++part) {
+      // An edge of the part is an edge of that polygon or inside it. A vertex would not do: two may meet
+      // there.
+      const std::span<const std::uint32_t> shell = ring_of(parts, rings_of(parts, part).first);
+      std::optional<std::size_t> polygon = polygon_of_edge.find(shell[0], shell[1]);
+      if (!polygon) {
+        const Point& a = points_[shell[0]];
+        const Point& b = points_[shell[1]];
+        polygon = locator.polygon_of({a.x / 2 + b.x / 2, a.y / 2 + b.y / 2});
+      }
+      if (!polygon || (all && *all != *polygon)) return {};
+      all = polygon;
+    }
+    return all;
+  }
+
+ private:
+  Extractor& extractor_;
+  std::span<const Point> points_;
+  Options options_;
+  const std::function<void()>& on_step_;
+};
+
+}  // namespace
+
+WidenedHull widened_hull(Extractor& extractor, std::span<const Point> points, const Options& options,
+                         const Wanted& wanted, const std::function<void()>& on_step) {
+  Widening widening(extractor, points, options, on_step);
+  const double covering = wanted.cover ? widening.cover() : 1;
+  const double factor = wanted.one ? widening.one(covering) : covering;
+  const IndexedMultiPolygon parts = wanted.one ? widening.shape(covering) : IndexedMultiPolygon();
+  const IndexedMultiPolygon& shape = widening.shape(factor);
+  std::optional<std::size_t> with_all;
+  if (wanted.one && shape.polygon_count() > 1) with_all = widening.polygon_with_all(parts, shape);
+  return {with_all ? only(shape, *with_all) : shape, widened(options, factor)};
+}
+
+}  // namespace polylidar

@@ -1,0 +1,109 @@
+// Hulls that leave no point outside, or are one polygon. What they are, on many point sets, is tested with
+// the groups of the program (test_group_hulls.cpp).
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+#include "polylidar/concave_hull.hpp"
+#include "polylidar/point_locator.hpp"
+#include "polylidar/widened_hull.hpp"
+#include "tests/point_sets.hpp"
+
+namespace polylidar {
+namespace {
+
+/// Two squares of uniform points, and a point far from both.
+std::vector<Point> two_squares() {
+  std::vector<Point> points = testing::uniform_points(300, 1);
+  for (const Point& p : testing::uniform_points(300, 2)) points.push_back({p.x + 1.5, p.y});
+  points.push_back({0.5, 3});
+  return points;
+}
+
+bool covers_all(const MultiPolygon& shape, const std::vector<Point>& points) {
+  const PointLocator locator(shape);
+  for (const Point& p : points) {
+    if (!locator.contains(p)) return false;
+  }
+  return true;
+}
+
+TEST(WidenedHull, CoversAllPointsOrIsOneOrBoth) {
+  const std::vector<Point> points = two_squares();
+  for (const Options& options : {Options(), Options{.alpha = 0.1}, Options{.max_edge_length = 0.3}}) {
+    const MultiPolygon plain = to_coordinates(concave_hull(points, options), points);
+    ASSERT_EQ(plain.size(), 2U);
+    EXPECT_FALSE(covers_all(plain, points));
+    const MultiPolygon covering = to_coordinates(concave_hull(points, options, {.cover = true}), points);
+    EXPECT_TRUE(covers_all(covering, points));
+    const IndexedMultiPolygon one = concave_hull(points, options, {.one = true});
+    EXPECT_EQ(one.polygon_count(), 1U);
+    EXPECT_LT(area(to_coordinates(one, points)), area(covering));
+    const IndexedMultiPolygon both = concave_hull(points, options, {.cover = true, .one = true});
+    EXPECT_EQ(both.polygon_count(), 1U);
+    EXPECT_TRUE(covers_all(to_coordinates(both, points), points));
+  }
+}
+
+TEST(WidenedHull, SaysTheLimitAndTheSizes) {
+  const std::vector<Point> points = two_squares();
+  Extractor extractor;
+  int steps = 0;
+  const WidenedHull by_length =
+      widened_hull(extractor, points, {.max_edge_length = 0.3}, {.cover = true}, [&] { ++steps; });
+  EXPECT_GT(steps, 5);
+  ASSERT_TRUE(by_length.options.max_edge_length);
+  EXPECT_GT(*by_length.options.max_edge_length, 1.5);
+  EXPECT_EQ(by_length.shape, concave_hull(points, by_length.options));
+  EXPECT_FALSE(extractor.chosen_sizes());
+  extractor.extract(points);
+  const double usual = extractor.chosen_sizes()->median;
+  const WidenedHull chosen = widened_hull(extractor, points, {}, {.cover = true});
+  EXPECT_LT(chosen.options.detail, 1);
+  EXPECT_EQ(chosen.shape, concave_hull(points, chosen.options));
+  ASSERT_TRUE(extractor.chosen_sizes());
+  EXPECT_GT(extractor.chosen_sizes()->median, usual);
+  // What holds already is not widened, so the options stay.
+  const std::vector<Point> square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  EXPECT_EQ(widened_hull(extractor, square, {.alpha = 1}, {true, true}).options, Options{.alpha = 1});
+}
+
+TEST(WidenedHull, OfEveryLabel) {
+  std::vector<Point> points = two_squares();
+  std::vector<std::int64_t> labels(points.size(), 5);
+  const std::size_t before = points.size();
+  for (const Point& p : two_squares()) points.push_back({p.x + 9, p.y});
+  labels.resize(points.size(), 7);
+  for (const unsigned threads : {1U, 3U}) {
+    const auto hulls = concave_hulls(points, labels, {.threads = threads}, {.cover = true, .one = true});
+    ASSERT_EQ(hulls.size(), 2U);
+    for (const LabelledHull& hull : hulls) {
+      ASSERT_EQ(hull.shape.polygon_count(), 1U);
+      const std::vector<Point> own(
+          points.begin() + (hull.label == 5 ? 0 : static_cast<long>(before)),
+          hull.label == 5 ? points.begin() + static_cast<long>(before) : points.end());
+      EXPECT_TRUE(covers_all(to_coordinates(hull.shape, points), own));
+    }
+  }
+}
+
+TEST(WidenedHull, OfNothingWithAnAreaIsEmptyAndBadInputIsRefused) {
+  for (const std::vector<Point>& flat : {std::vector<Point>{}, {{1, 2}}, {{0, 0}, {1, 1}, {2, 2}}}) {
+    EXPECT_EQ(concave_hull(flat, {}, {.cover = true, .one = true}).polygon_count(), 0U);
+  }
+  const std::vector<Point> points = two_squares();
+  EXPECT_THROW(concave_hull(points, {.alpha = -1}, {.cover = true}), std::invalid_argument);
+  EXPECT_THROW(concave_hull(points, {.detail = 0}, {.one = true}), std::invalid_argument);
+  // No multiple of 0 is a limit, so that there is none in the end.
+  EXPECT_TRUE(
+      covers_all(to_coordinates(concave_hull(points, {.alpha = 0}, {.cover = true}), points), points));
+  Extractor extractor;
+  EXPECT_THROW(
+      widened_hull(extractor, points, {}, {.cover = true}, [] { throw std::runtime_error("enough"); }),
+      std::runtime_error);
+}
+
+}  // namespace
+}  // namespace polylidar
