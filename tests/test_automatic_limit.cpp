@@ -558,6 +558,22 @@ TEST(AutomaticLimit, TakesRoadsForEven) {
   }
 }
 
+// The triangles between the points of an outline are flat, and their sizes scatter, but no voids are
+// ordinary.
+TEST(AutomaticLimit, TakesOutlinesForEven) {
+  constexpr double kPi = 3.141592653589793;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    testing::Random random(seed);
+    std::vector<Point> points;
+    for (int i = 0; i < 600; ++i) {
+      const double angle = 2 * kPi * random.unit();
+      const double radius = (i % 3 == 0 ? 0.5 : 1) + random.between(-0.001, 0.001);
+      points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    }
+    EXPECT_FALSE(are_uneven(points)) << seed;
+  }
+}
+
 // Of a field that varies anyway: without a bound the outliers' own blocks would make them a part of the
 // shape.
 TEST(AutomaticLimit, BoundsWhatOutliersMakeOfAField) {

@@ -47,6 +47,19 @@ TEST(WidenedHull, CoversAllPointsOrIsOneOrBoth) {
   }
 }
 
+// With the edges that join the squares a sparse triangle far from both is kept, too.
+TEST(WidenedHull, OneDropsWhatAWiderLimitAddsApart) {
+  std::vector<Point> points = two_squares();
+  for (const Point& corner : {Point{0, 9}, {0.4, 9}, {0.2, 9.3}}) points.push_back(corner);
+  Extractor extractor;
+  const WidenedHull one = widened_hull(extractor, points, {.max_edge_length = 0.2}, {.one = true});
+  EXPECT_EQ(one.shape.polygon_count(), 1U);
+  EXPECT_GE(concave_hull(points, one.options).polygon_count(), 2U);
+  const MultiPolygon plain = to_coordinates(concave_hull(points, {.max_edge_length = 0.2}), points);
+  EXPECT_EQ(plain.size(), 2U);
+  EXPECT_GT(area(to_coordinates(one.shape, points)), area(plain));
+}
+
 TEST(WidenedHull, SaysTheLimitAndTheSizes) {
   const std::vector<Point> points = two_squares();
   Extractor extractor;
