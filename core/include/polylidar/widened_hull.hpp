@@ -20,10 +20,10 @@ struct WidenedHull {
 /// so what is wanted holds from some factor on, and doubling and halving finds it. From a factor of 2^60 on
 /// there is no limit, and the shape is the convex hull. The shape is empty if all points lie on a line.
 ///
-/// O(n log n) for each of about 10 to 30 steps, of which only the first one triangulates. `on_step` is called
-/// before each step; what it throws ends the work. Afterwards `extractor` is as after extract_polygons() with
-/// WidenedHull::options, so chosen_sizes() tells the sizes. Throws as concave_hull. `points` must stay in
-/// place as long as `extractor` is asked for triangles.
+/// O(n log n). All points are triangulated, once; then there are about 20 steps, each of which makes a shape.
+/// `on_step` is called before each step; what it throws ends the work. Afterwards `extractor` is as after
+/// extract_polygons() with WidenedHull::options, so chosen_sizes() tells the sizes. Throws as concave_hull.
+/// `points` must stay in place as long as `extractor` is asked for triangles.
 WidenedHull widened_hull(Extractor& extractor, std::span<const Point> points, const Options& options,
                          const Wanted& wanted, const std::function<void()>& on_step = {});
 
