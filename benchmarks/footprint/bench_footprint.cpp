@@ -13,8 +13,10 @@
 #include <fstream>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -156,7 +158,7 @@ class Comparison {
     const json environment = record::collect_environment();
     make_tile();
     const MultiPolygon truth = make_ground_truth(choice_.dataset, false);
-    add_ways();
+    add_ways(truth);
     for (int r = 0; r < (choice_.without_times ? 1 : choice_.runs); ++r) {
       time_cat(cat_);
       for (Way& way : ways_) {
@@ -196,7 +198,7 @@ class Comparison {
     ways_.push_back({std::move(name), points, std::move(make)});
   }
 
-  void add_ways() {
+  void add_ways(const MultiPolygon& truth) {
     // What the others are given is what these choose.
     footprint({});
     const double size = properties_["most_size"].get<double>();
@@ -213,6 +215,9 @@ class Comparison {
     add("polylidar footprint --union", all, [this] { return footprint({"--union"}); });
     add("hexagons " + three_digits(size) + " high with a point", all,
         [this, size] { return hexbin(read(), size, kOne); });
+    const double best = best_height(size, truth);
+    add("hexagons " + three_digits(best) + " high with a point, the best height", all,
+        [this, best] { return hexbin(read(), best, kOne); });
     const double height = hexer_height(read(), kOfPdal);
     add("hexagons " + three_digits(height) + " high with " + std::to_string(kOfPdal) + " points", all,
         [this, height] { return hexbin(read(), height, kOfPdal); });
@@ -221,6 +226,29 @@ class Comparison {
       return result_of("geos_concave_hull", sample_of(read()), {{"max_edge_length", edge}});
     });
     add("convex hull", all, [this] { return result_of("convex_hull", read(), {}); });
+  }
+
+  /// The height of hexagons with a point that has the least area error: eight heights to an octave are tried,
+  /// from `size` up and down, while the error falls. Lower hexagons leave voids between the points; higher
+  /// ones overshoot.
+  double best_height(double size, const MultiPolygon& truth) const {
+    const std::vector<Point> points = read();
+    const auto error_of = [&](double height) {
+      throw_if_interrupted();
+      const std::optional<double> error = metrics::area_scores(hexbin(points, height, kOne), truth).l2;
+      return error.value_or(std::numeric_limits<double>::infinity());
+    };
+    double best = size;
+    double least = error_of(size);
+    for (const double factor : {std::exp2(-0.125), std::exp2(0.125)}) {
+      for (double height = best * factor;; height *= factor) {
+        const double error = error_of(height);
+        if (!(error < least)) break;
+        least = error;
+        best = height;
+      }
+    }
+    return best;
   }
 
   /// Points evenly spread over the file.
@@ -298,8 +326,8 @@ class Comparison {
     std::vector<std::string> notes = {
         "Area error: the area in which outline and truth differ, of the truth's area.",
         "Hexagons: the union of those with that many points or more. The first are as high as the largest "
-        "triangle that polylidar chose; the others as Hexer takes them, which PDAL's filters.hexbin is made "
-        "of: " +
+        "triangle that polylidar chose; the second have the height with the least error, found with the "
+        "truth; the others are as Hexer takes them, which PDAL's filters.hexbin is made of: " +
             std::to_string(kOfPdal) + " times the mean distance of consecutive points, of the first 5000.",
         "GEOS's ConcaveHull gets " + std::to_string(std::min(choice_.sample, choice_.points)) +
             " of the points, evenly spread over the file, and the edge that the rule auto_edge_length takes "

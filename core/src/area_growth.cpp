@@ -124,6 +124,7 @@ double AreaGrowth::steadiest_size4(double points, double doubt, const AutomaticC
   }
   const double log_usual = std::log(constants.usual * std::sqrt(std::log(points)));
   const double pull_of_n = constants.pull * std::pow(points, -0.2);
+  const double still = constants.still / std::sqrt(points);
   double least_cost = std::numeric_limits<double>::infinity();
   double steadiest = std::max(log_usual, std::log(kLeast));  // where the areas of all are zero by rounding
   for (std::size_t c = constants.below; c + constants.above < kCells; ++c) {
@@ -133,7 +134,7 @@ double AreaGrowth::steadiest_size4(double points, double doubt, const AutomaticC
     const double growth = (log_area[high] - log_area[low]) / (log_size[high] - log_size[low]);
     const double distance = log_size[c] - log_usual;
     const double pull = distance > 0 ? pull_of_n / doubt : pull_of_n;
-    const double cost = std::log(growth + constants.still) + pull * distance * distance;
+    const double cost = std::log(growth + still) + pull * distance * distance;
     if (cost < least_cost) {  // no: without an area below, where it is infinite or NaN
       least_cost = cost;
       steadiest = log_size[c];
