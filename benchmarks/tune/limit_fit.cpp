@@ -212,7 +212,7 @@ const std::vector<LimitKnob>& limit_knobs() {
                                                {"pull", &C::pull, nullptr, 2, 120},
                                                {"even", &C::even, nullptr, 0.2, 0.5},
                                                {"doubt", &C::doubt, nullptr, 5, 500},
-                                               {"still", &C::still, nullptr, 0.02, 6},
+                                               {"still", &C::still, nullptr, 0.0003, 0.1},
                                                {"below", nullptr, &C::below, 3, 10},
                                                {"above", nullptr, &C::above, 1, 8},
                                                {"spike", &C::spike, nullptr, 0.8, 3},

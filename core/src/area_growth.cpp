@@ -124,7 +124,8 @@ double AreaGrowth::steadiest_size4(double points, double doubt, const AutomaticC
   }
   const double log_usual = std::log(constants.usual * std::sqrt(std::log(points)));
   const double pull_of_n = constants.pull * std::pow(points, -0.2);
-  const double still = constants.still / std::sqrt(points);
+  constexpr double kFewPoints = 5000;
+  const double still = constants.still * std::min(std::sqrt(kFewPoints / points), 1.0);
   double least_cost = std::numeric_limits<double>::infinity();
   double steadiest = std::max(log_usual, std::log(kLeast));  // where the areas of all are zero by rounding
   for (std::size_t c = constants.below; c + constants.above < kCells; ++c) {

@@ -21,14 +21,14 @@ namespace polylidar::detail {
 /// gaps, A grows quickly again, by what is outside the shape. Between the two it hardly grows. The rule takes
 /// the s where A is stable and which is not far from the usual place of such an s:
 ///
-///   s = argmin  log(g(s) + still n^(-1/2)) + pull n^(-1/5) log^2(s / (usual sqrt(log n))),
+///   s = argmin  log(g(s) + still(n)) + pull n^(-1/5) log^2(s / (usual sqrt(log n))),
 ///   g = d log A / d log s,
 ///
 /// with s in median sizes of the triangles, on a grid of 16 sizes to the octave, g as a difference over
 /// `below` + `above` cells. The largest void that chance makes among n points has a width that grows with
-/// sqrt(log n). The strip along the outline that triangles of such sizes cover is a share of the area that
-/// falls with n^(-1/2), so a growth that counts as none falls with it. The fewer points there are, the less A
-/// says, and the more the usual place counts.
+/// sqrt(log n). Triangles near such sizes cover a strip along the outline, whose share of the area falls with
+/// n^(-1/2). So does still(n), the growth that counts as none, from 5,000 points on; it is `still` below. The
+/// fewer points there are, the less A says, and the more the usual place counts.
 ///
 /// The triangles are a sample. In this order: clear() and add(), or sample(); sum_up(); add_wide() where not
 /// all sizes are in the sample; steadiest_size4(). From sum_up() on the steps may be repeated. Keeps its

@@ -22,7 +22,7 @@ struct AutomaticConstants {
   double pull = 10.9;     ///< the cost of a limit away from it, times n^(-1/5)
   double even = 0.33;     ///< most scatter of the spacings where the density varies smoothly
   double doubt = 160;     ///< how strongly more scatter weakens the pull on larger limits
-  double still = 1.3;     ///< a growth of the area that counts as none, times n^(1/2)
+  double still = 0.018;   ///< a growth of the area that counts as none, of up to 5,000 points
   std::size_t below = 3;  ///< the growth is measured over this many cells of the grid below a limit
   std::size_t above = 6;  ///< and this many above it
   double spike = 1.57;    ///< the size from which a triangle may be a spike
