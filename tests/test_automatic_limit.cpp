@@ -422,7 +422,7 @@ TEST(AutomaticLimit, FollowsTheDensityOfManyPointsWithoutTheirInterior) {
 }
 
 // A square has no notch that a wider limit would close, so the limit is above the usual one, which is about
-// 1.03 in the unit of this test.
+// 1.04 in the unit of this test.
 TEST(AutomaticLimit, OfManyPointsIsWiderWhereTheirAreaHardlyGrows) {
   constexpr double kCount = 400'000;
   std::vector<double> sizes;
