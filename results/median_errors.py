@@ -2,7 +2,7 @@
 """median_errors.py RECORDS: the median and the mean error of each method in a run's runs.jsonl or runs.jsonl.xz, in % of the
 true area. A run without a valid result, or with an error above 100 %, counts as 100 %.
 
-    results/median_errors.py results/towns/runs.jsonl.xz
+    results/median_errors.py results/reference/towns/runs.jsonl.xz
 """
 import collections
 import json
