@@ -14,7 +14,9 @@
 
 #include "core/src/automatic_limit.hpp"
 #include "core/src/delaunay_builder.hpp"
+#include "core/src/outliers.hpp"
 #include "core/src/region.hpp"
+#include "core/src/spacings.hpp"
 #include "polylidar/check.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
@@ -546,6 +548,57 @@ TEST(AutomaticLimit, LeavesAFifthOfOutliersOut) {
     joined += area(checked_hull(points)) > 1.5 ? 1 : 0;  // of 2.56
   }
   EXPECT_LE(joined, 2);  // of 20
+}
+
+/// Points of the unit square, and uniform outliers in the square of thrice its area round it.
+std::vector<Point> square_in_outliers(std::size_t count, std::size_t outliers, std::uint64_t seed) {
+  std::vector<Point> points = testing::uniform_points(count, seed);
+  for (const Point& p : testing::uniform_points(outliers, seed + 100)) {
+    points.push_back({1.73 * p.x - 0.365, 1.73 * p.y - 0.365});
+  }
+  return points;
+}
+
+/// Whether the spacings of the points show outliers.
+bool shows_outliers(const std::vector<Point>& points) {
+  detail::ThreadPool pool;
+  detail::DelaunayBuilder builder;
+  builder.build(points, pool);
+  const detail::SizedMesh sized = {builder.mesh(), builder.vertices(), nullptr};
+  return detail::spacing4_of_outliers(sized, detail::look_around_some(sized),
+                                      detail::AutomaticConstants{}.valley)
+      .has_value();
+}
+
+// So many outliers fill blocks of their own, whose sizes a bound on growth from block to block does not stop.
+TEST(AutomaticLimit, LeavesManyOutliersOut) {
+  for (const std::size_t count : {4000U, 8000U, 30000U}) {
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+      const double found = area(checked_hull(square_in_outliers(count, count / 6, seed)));
+      EXPECT_GT(found, 0.95) << count << " points, seed " << seed;
+      EXPECT_LT(found, 1.1) << count << " points, seed " << seed;
+    }
+  }
+}
+
+TEST(AutomaticLimit, SeesOutliersByTheirDensity) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    EXPECT_TRUE(shows_outliers(square_in_outliers(3000, 500, seed))) << seed;
+    EXPECT_FALSE(shows_outliers(testing::uniform_points(3000, seed))) << seed;
+    EXPECT_FALSE(shows_outliers(sparser_to_the_right(3000, 6, seed))) << seed;
+    EXPECT_FALSE(shows_outliers(zigzag(36, seed))) << seed;
+  }
+  EXPECT_FALSE(shows_outliers(testing::lattice(50, 50)));
+}
+
+// Nine tenths of the points, and four times as close together: but the others do not lie round them.
+TEST(AutomaticLimit, KeepsASparsePartThatAdjoins) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    std::vector<Point> points = testing::uniform_points(9000, seed);
+    for (const Point& p : testing::uniform_points(1000, seed + 100)) points.push_back({1 + 1.8 * p.x, p.y});
+    EXPECT_FALSE(shows_outliers(points)) << seed;
+    EXPECT_GT(area(checked_hull(points)), 2.5) << seed << ": of 2.8";
+  }
 }
 
 // Roads are far apart, but the points along them are even, as receivers write them down at a fixed interval.

@@ -200,7 +200,7 @@ TEST(LimitFit, EveryPartOfTheRuleCanBeTakenOut) {
   names.push_back({"county-1~outline:0.1", false, 2000});
   auto cases = tune::make_limit_cases(names, {});
   const auto ablations = tune::limit_ablations();
-  ASSERT_EQ(ablations.size(), 10U);
+  ASSERT_EQ(ablations.size(), 11U);
   const std::vector<double> whole = tune::limit_errors(cases, {}, {});
   EXPECT_EQ(tune::limit_errors(cases, ablations[0].constants, {}), whole);
   for (std::size_t k = 1; k < ablations.size(); ++k)

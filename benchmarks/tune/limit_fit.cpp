@@ -21,7 +21,8 @@ constexpr double kLargestLoss = 1.5;
 constexpr int kOtherStarts = 2;
 /// The first of limit_knobs(). `part` and `wide` hardly change an error: they are chosen so that chance
 /// leaves no parts and holes, which fit_default counts. `smoothed_from` is a number of blocks that no set of
-/// the fit is near, and `step` is of points on outlines, which the fit has none of.
+/// the fit is near, `step` is of points on outlines, which the fit has none of, and `valley` was chosen with
+/// the other numbers of outliers.cpp.
 constexpr std::size_t kFittedKnobs = 12;
 
 double weight_of(const std::string& sampling) {
@@ -219,7 +220,8 @@ const std::vector<LimitKnob>& limit_knobs() {
                                                {"part", &C::part, nullptr, 0.25, 8},
                                                {"wide", &C::wide, nullptr, 2, 16},
                                                {"smoothed_from", nullptr, &C::smoothed_from, 4, 64},
-                                               {"step", &C::step, nullptr, 0.5, 8}};
+                                               {"step", &C::step, nullptr, 0.5, 8},
+                                               {"valley", &C::valley, nullptr, 1, 8}};
   return knobs;
 }
 
@@ -263,6 +265,7 @@ std::vector<LimitVariant> limit_ablations() {
   std::vector<LimitVariant> variants = {{"whole rule", {}},
                                         {"growth not bounded", {.growth = kInfinity}},
                                         {"not smoothed", {.smoothed_from = kNever}},
+                                        {"outliers not told by their density", {.valley = kInfinity}},
                                         {"scatter not looked at", {.doubt = 0}},
                                         {"not shrunk to the median", {.noise = 0, .smoothed_from = kNever}},
                                         {"one block: one limit for all", {.noise = kInfinity}},

@@ -18,6 +18,8 @@ struct AutomaticConstants {
   double noise = 0.12;    ///< standard deviation, by chance alone, of the logarithm of a usual size
   std::size_t smoothed_from = 16;  ///< with fewer blocks none is moved towards its neighbours
 
+  double valley = 2;  ///< the outliers' density is another one from so many standard deviations on
+
   double usual = 0.667;   ///< the usual limit, in median sizes times sqrt(log n)
   double pull = 10.9;     ///< the cost of a limit away from it, times n^(-1/5)
   double even = 0.33;     ///< most scatter of the spacings where the density varies smoothly

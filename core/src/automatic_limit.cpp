@@ -9,9 +9,11 @@
 #include <utility>
 
 #include "kernels.hpp"
+#include "outliers.hpp"
 #include "outline_steps.hpp"
 #include "quantile.hpp"
 #include "spacing_scatter.hpp"
+#include "spacings.hpp"
 
 namespace polylidar::detail {
 
@@ -227,13 +229,17 @@ void AutomaticLimit::choose_by_blocks(const DelaunayBuilder& builder, double det
   const SizedMesh sized = measure_triangles(builder, pool);
   blocks_.measure(sized, field_.block_of_vertex, constants.quantile, pool, sizes_);
   sizes_.smooth(constants);
+  const Spacings spacings = look_around_some(sized);
+  if (const std::optional<double> spacing4 = spacing4_of_outliers(sized, spacings, constants.valley)) {
+    sizes_.level_above(*spacing4);
+  }
   sizes_.bound_growth(blocks_.count(), constants);
   sizes_.shrink_to_median(constants.noise);
   areas_.sample(sized, field_.block_of_vertex, sizes_.usual4());
   if (!areas_.is_empty()) {
     areas_.sum_up();
-    doubt_ = 1 + constants.doubt *
-                     excess_scatter(sized, field_.block_of_vertex, sizes_.usual4(), points, constants);
+    doubt_ = 1 + constants.doubt * excess_scatter(sized, spacings, field_.block_of_vertex, sizes_.usual4(),
+                                                  points, constants);
   }
   set_field(points, detail, constants);
   look_for_outlines(sized, points, detail, constants.step);

@@ -1,0 +1,148 @@
+#include "outliers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "quantile.hpp"
+
+namespace polylidar::detail {
+
+namespace {
+
+/// Numbers counted on a logarithmic scale. They are fourth powers of lengths, of which an octave has 16
+/// cells: four to one of the fourth powers, by the first two bits of their fractions.
+class Histogram {
+ public:
+  static constexpr std::size_t kCells = 256;  // eight octaves of lengths on either side of 1
+  using Density = std::array<double, kCells>;
+  static constexpr double kSmoothedOver = 10;  ///< cells, as 1 / the sum of the squared weights
+
+  void add(double length4) {
+    const std::int64_t cell = (std::bit_cast<std::int64_t>(length4) >> kBits) - kFirst;
+    ++counts_[static_cast<std::size_t>(std::clamp<std::int64_t>(cell, 0, kCells - 1))];
+  }
+  /// The fourth power of the length at which the cell begins.
+  static double begin4(std::size_t cell) {
+    return std::bit_cast<double>((static_cast<std::int64_t>(cell) + kFirst) << kBits);
+  }
+  std::size_t count(std::size_t cell) const { return counts_[cell]; }
+  /// The cell of the number at this place, in ascending order.
+  std::size_t cell_at(std::size_t place) const {
+    std::size_t c = 0;
+    for (; c + 1 < kCells && place >= counts_[c]; ++c) place -= counts_[c];
+    return c;
+  }
+  /// Numbers in a mean cell, smoothed by a bell whose deviation is about three cells.
+  Density smoothed() const;
+
+ private:
+  static constexpr unsigned kBits = 50;
+  static constexpr std::int64_t kFirst =
+      (std::bit_cast<std::int64_t>(1.0) >> kBits) - static_cast<std::int64_t>(kCells / 2);
+
+  std::array<std::uint32_t, kCells> counts_{};
+};
+
+Histogram::Density Histogram::smoothed() const {
+  // The cells of an octave of fourth powers, [1, 1.25), [1.25, 1.5) and so on, as parts of a mean one.
+  constexpr std::array<double, 4> kWidth = {1.288, 1.052, 0.890, 0.770};
+  Density density{};
+  for (std::size_t c = 0; c < kCells; ++c) density[c] = counts_[c] / kWidth[c % kWidth.size()];
+  constexpr std::size_t kHalf = 2;
+  for (int pass = 0; pass < 4; ++pass) {  // means of five cells, four times
+    double sum = 0;
+    Density mean{};
+    for (std::size_t c = 0; c < kHalf; ++c) sum += density[c];
+    for (std::size_t c = 0; c < kCells; ++c) {
+      if (c + kHalf < kCells) sum += density[c + kHalf];
+      if (c > kHalf) sum -= density[c - kHalf - 1];
+      mean[c] = sum / (2 * kHalf + 1);
+    }
+    density = mean;
+  }
+  return density;
+}
+
+/// Between two peaks.
+struct Valley {
+  std::size_t cell = 0;
+  std::size_t before = 0;  ///< numbers in the cells before it
+  double sureness = 0;     ///< how much lower it is than both peaks, in standard deviations
+};
+
+/// The surest valley that leaves 3 to 30 % of so many numbers beyond it.
+Valley surest_valley(const Histogram& histogram, std::size_t numbers) {
+  constexpr double kLeastBeyond = 0.03;
+  constexpr double kMostBeyond = 0.3;
+  const Histogram::Density density = histogram.smoothed();
+  std::array<double, Histogram::kCells + 1> peak_from{};
+  for (std::size_t c = Histogram::kCells; c-- > 0;) peak_from[c] = std::max(peak_from[c + 1], density[c]);
+  Valley surest;
+  double peak_before = 0;
+  std::size_t before = 0;
+  for (std::size_t c = 0; c < Histogram::kCells; ++c) {
+    const double lower_peak = std::min(peak_before, peak_from[c]);
+    const double beyond = static_cast<double>(numbers - before) / static_cast<double>(numbers);
+    if (beyond >= kLeastBeyond && beyond <= kMostBeyond && lower_peak > density[c]) {
+      const double deviation = std::sqrt((lower_peak + density[c]) / Histogram::kSmoothedOver);
+      const double sureness = (lower_peak - density[c]) / deviation;
+      if (sureness > surest.sureness) surest = {c, before, sureness};
+    }
+    peak_before = std::max(peak_before, density[c]);
+    before += histogram.count(c);
+  }
+  return surest;
+}
+
+/// Whether nine tenths of the points on the convex hull have at least this spacing.
+bool are_on_hull(const SizedMesh& sized, double spacing4) {
+  const Mesh& mesh = sized.mesh;
+  std::size_t on_hull = 0;
+  std::size_t sparse = 0;
+  for (Mesh::Index t = 0; t < mesh.triangle_count(); ++t) {
+    if (!mesh.is_ghost(t)) continue;
+    Mesh::Index e = Mesh::kStride * t;
+    while (mesh.origin(e) == kNone || mesh.origin(Mesh::next(e)) == kNone) e = Mesh::next(e);  // a hull edge
+    const double at_start = look_around(sized, e).spacing4;
+    if (!std::isfinite(at_start)) continue;
+    ++on_hull;
+    sparse += at_start >= spacing4 ? 1U : 0U;
+  }
+  return 10 * sparse >= 9 * on_hull;
+}
+
+}  // namespace
+
+std::optional<double> spacing4_of_outliers(const SizedMesh& sized, const Spacings& spacings,
+                                           double sureness) {
+  std::vector<double> spacings4;
+  spacings4.reserve(spacings.around.size());
+  for (const Around& around : spacings.around) {
+    if (std::isfinite(around.spacing4) && around.spacing4 > 0) spacings4.push_back(around.spacing4);
+  }
+  constexpr std::size_t kForUnit = 64;
+  if (spacings4.size() < kForUnit) return {};
+  std::vector<double> some;
+  for (std::size_t i = 0; i < spacings4.size(); i += spacings4.size() / kForUnit)
+    some.push_back(spacings4[i]);
+  constexpr double kInCell = 1.1;  // in a lattice all have one spacing, which then lies within a cell
+  const double unit4 = quantile_of(some, 0.5) / kInCell;
+  Histogram histogram;
+  for (const double spacing4 : spacings4) histogram.add(spacing4 / unit4);
+  const Valley valley = surest_valley(histogram, spacings4.size());
+  if (valley.sureness < sureness) return {};
+  constexpr std::size_t kMostSpread = 22;  // cells between the 0.1 and the 0.9 quantile; points at random: 17
+  const std::size_t low = histogram.cell_at(valley.before / 10);
+  const std::size_t high = histogram.cell_at(valley.before - 1 - valley.before / 10);
+  if (high - low > kMostSpread) return {};
+  const double spacing4 = Histogram::begin4(valley.cell) * unit4;
+  if (!are_on_hull(sized, spacing4)) return {};
+  return spacing4;
+}
+
+}  // namespace polylidar::detail
