@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "automatic_constants.hpp"
 #include "quantile.hpp"
 
 namespace polylidar::detail {
@@ -31,12 +32,6 @@ class Histogram {
     return std::bit_cast<double>((static_cast<std::int64_t>(cell) + kFirst) << kBits);
   }
   std::size_t count(std::size_t cell) const { return counts_[cell]; }
-  /// The cell of the number at this place, in ascending order.
-  std::size_t cell_at(std::size_t place) const {
-    std::size_t c = 0;
-    for (; c + 1 < kCells && place >= counts_[c]; ++c) place -= counts_[c];
-    return c;
-  }
   /// Numbers in a mean cell, smoothed by a bell whose deviation is about three cells.
   Density smoothed() const;
 
@@ -71,8 +66,7 @@ Histogram::Density Histogram::smoothed() const {
 /// Between two peaks.
 struct Valley {
   std::size_t cell = 0;
-  std::size_t before = 0;  ///< numbers in the cells before it
-  double sureness = 0;     ///< how much lower it is than both peaks, in standard deviations
+  double sureness = 0;  ///< how much lower it is than both peaks, in standard deviations
 };
 
 /// The surest valley that leaves 3 to 30 % of so many numbers beyond it.
@@ -91,12 +85,23 @@ Valley surest_valley(const Histogram& histogram, std::size_t numbers) {
     if (beyond >= kLeastBeyond && beyond <= kMostBeyond && lower_peak > density[c]) {
       const double deviation = std::sqrt((lower_peak + density[c]) / Histogram::kSmoothedOver);
       const double sureness = (lower_peak - density[c]) / deviation;
-      if (sureness > surest.sureness) surest = {c, before, sureness};
+      if (sureness > surest.sureness) surest = {c, sureness};
     }
     peak_before = std::max(peak_before, density[c]);
     before += histogram.count(c);
   }
   return surest;
+}
+
+/// Whether most points with at least this spacing have a much nearer neighbour, as those on scan lines have.
+bool are_on_lines(const Spacings& spacings, double spacing4) {
+  constexpr double kMostRatio = 2.7;  // points at random: about 2
+  std::vector<double> ratios4;
+  for (const Around& around : spacings.around) {
+    if (around.spacing4 < spacing4 || !std::isfinite(around.spacing4) || around.nearest4 == 0) continue;
+    ratios4.push_back(around.spacing4 / around.nearest4);
+  }
+  return !ratios4.empty() && quantile_of(ratios4, 0.5) > fourth_power(kMostRatio);
 }
 
 /// Whether nine tenths of the points on the convex hull have at least this spacing.
@@ -136,12 +141,8 @@ std::optional<double> spacing4_of_outliers(const SizedMesh& sized, const Spacing
   for (const double spacing4 : spacings4) histogram.add(spacing4 / unit4);
   const Valley valley = surest_valley(histogram, spacings4.size());
   if (valley.sureness < sureness) return {};
-  constexpr std::size_t kMostSpread = 22;  // cells between the 0.1 and the 0.9 quantile; points at random: 17
-  const std::size_t low = histogram.cell_at(valley.before / 10);
-  const std::size_t high = histogram.cell_at(valley.before - 1 - valley.before / 10);
-  if (high - low > kMostSpread) return {};
   const double spacing4 = Histogram::begin4(valley.cell) * unit4;
-  if (!are_on_hull(sized, spacing4)) return {};
+  if (are_on_lines(spacings, spacing4) || !are_on_hull(sized, spacing4)) return {};
   return spacing4;
 }
 

@@ -15,8 +15,8 @@ namespace polylidar::detail {
 /// have two peaks with a valley between them. Where the density varies smoothly, there is no valley. It must
 /// be deeper than chance explains: by `sureness` standard deviations. Also
 /// - 3 to 30 % of the points must lie beyond it;
-/// - those before it must have about one density: their spacings may spread a third more than those of points
-///   at random. A lidar that rotates has valleys between its rings, but a density that varies far more;
+/// - those beyond must be about as far from their nearest neighbours as points at random. The rings of a
+///   rotating lidar have valleys between them, too, but along a ring points are close;
 /// - nine tenths of the points on the convex hull must lie beyond it. A sparse part of the shape does not
 ///   surround the rest.
 ///
