@@ -111,14 +111,16 @@ bool are_on_hull(const SizedMesh& sized, double spacing4) {
   std::size_t sparse = 0;
   for (Mesh::Index t = 0; t < mesh.triangle_count(); ++t) {
     if (!mesh.is_ghost(t)) continue;
-    Mesh::Index e = Mesh::kStride * t;
-    while (mesh.origin(e) == kNone || mesh.origin(Mesh::next(e)) == kNone) e = Mesh::next(e);  // a hull edge
-    const double at_start = look_around(sized, e).spacing4;
-    if (!std::isfinite(at_start)) continue;
-    ++on_hull;
-    sparse += at_start >= spacing4 ? 1U : 0U;
+    for (Mesh::Index e = Mesh::kStride * t; e < Mesh::kStride * t + 3; ++e) {
+      // A ghost has one hull edge, an unused record none.
+      if (mesh.origin(e) == kNone || mesh.origin(Mesh::next(e)) == kNone) continue;
+      const double at_start = look_around(sized, e).spacing4;
+      if (!std::isfinite(at_start)) continue;
+      ++on_hull;
+      sparse += at_start >= spacing4 ? 1U : 0U;
+    }
   }
-  return 10 * sparse >= 9 * on_hull;
+  return on_hull > 0 && 10 * sparse >= 9 * on_hull;
 }
 
 }  // namespace
