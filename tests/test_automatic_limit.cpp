@@ -583,9 +583,9 @@ TEST(AutomaticLimit, LeavesManyOutliersOut) {
 
 TEST(AutomaticLimit, SeesOutliersByTheirDensity) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    std::vector<Point> points = square_in_outliers(3000, 500, seed);
+    std::vector<Point> points = square_in_outliers(12000, 2000, seed);
     EXPECT_TRUE(shows_outliers(points)) << seed;
-    const std::vector<Point> half(points.begin(), points.begin() + 1750);
+    const std::vector<Point> half(points.begin(), points.begin() + 7000);
     points.insert(points.end(), half.begin(), half.end());
     EXPECT_TRUE(shows_outliers(points)) << seed << ", half of the points twice";
     EXPECT_FALSE(shows_outliers(testing::uniform_points(3000, seed))) << seed;
