@@ -22,7 +22,7 @@ std::uint64_t in_order(double size4) {
 /// The first corners of about `kMostSpacings` triangles, evenly over the mesh.
 std::vector<Mesh::Index> corners_to_look_at(const Mesh& mesh) {
   std::vector<Mesh::Index> corners;
-  corners.reserve(2 * kMostSpacings);
+  corners.reserve(std::size_t{2} * kMostSpacings);
   for (Mesh::Index step = (mesh.triangle_count() / kMostSpacings) | 1U;; step = 1) {
     corners.clear();
     for (std::size_t i = 0; i < mesh.triangle_count(); i += step) {
