@@ -230,8 +230,9 @@ void AutomaticLimit::choose_by_blocks(const DelaunayBuilder& builder, double det
   blocks_.measure(sized, field_.block_of_vertex, constants.quantile, pool, sizes_);
   sizes_.smooth(constants);
   const Spacings spacings = look_around_some(sized);
-  if (const std::optional<double> spacing4 = spacing4_of_outliers(sized, spacings, constants.valley)) {
-    sizes_.level_above(*spacing4);
+  if (blocks_.count() > 1) {
+    const std::optional<double> spacing4 = spacing4_of_outliers(sized, spacings, constants.valley);
+    if (spacing4) sizes_.level_above(*spacing4);
   }
   sizes_.bound_growth(blocks_.count(), constants);
   sizes_.shrink_to_median(constants.noise);
