@@ -19,7 +19,7 @@ namespace {
 /// cells: four to one of the fourth powers, by the first two bits of their fractions.
 class Histogram {
  public:
-  static constexpr std::size_t kCells = 256;  // eight octaves of lengths on either side of 1
+  static constexpr std::size_t kCells = 128;  // two octaves of lengths below 1 and six above
   using Density = std::array<double, kCells>;
   static constexpr double kSmoothedOver = 10;  ///< cells, as 1 / the sum of the squared weights
 
@@ -38,7 +38,7 @@ class Histogram {
  private:
   static constexpr unsigned kBits = 50;
   static constexpr std::int64_t kFirst =
-      (std::bit_cast<std::int64_t>(1.0) >> kBits) - static_cast<std::int64_t>(kCells / 2);
+      (std::bit_cast<std::int64_t>(1.0) >> kBits) - static_cast<std::int64_t>(kCells / 4);
 
   std::array<std::uint32_t, kCells> counts_{};
 };
@@ -82,7 +82,8 @@ Valley surest_valley(const Histogram& histogram, std::size_t numbers) {
   for (std::size_t c = 0; c < Histogram::kCells; ++c) {
     const double lower_peak = std::min(peak_before, peak_from[c]);
     const double beyond = static_cast<double>(numbers - before) / static_cast<double>(numbers);
-    if (beyond >= kLeastBeyond && beyond <= kMostBeyond && lower_peak > density[c]) {
+    if (beyond < kLeastBeyond) break;
+    if (beyond <= kMostBeyond && lower_peak > density[c]) {
       const double deviation = std::sqrt((lower_peak + density[c]) / Histogram::kSmoothedOver);
       const double sureness = (lower_peak - density[c]) / deviation;
       if (sureness > surest.sureness) surest = {c, sureness};
@@ -127,21 +128,27 @@ bool are_on_hull(const SizedMesh& sized, double spacing4) {
 
 std::optional<double> spacing4_of_outliers(const SizedMesh& sized, const Spacings& spacings,
                                            double sureness) {
-  std::vector<double> spacings4;
-  spacings4.reserve(spacings.around.size());
-  for (const Around& around : spacings.around) {
-    if (std::isfinite(around.spacing4) && around.spacing4 > 0) spacings4.push_back(around.spacing4);
-  }
+  const auto is_known = [](const Around& around) {
+    return std::isfinite(around.spacing4) && around.spacing4 > 0;
+  };
   constexpr std::size_t kForUnit = 64;
-  if (spacings4.size() < kForUnit) return {};
+  if (spacings.around.size() < kForUnit) return {};
   std::vector<double> some;
-  for (std::size_t i = 0; i < spacings4.size(); i += spacings4.size() / kForUnit)
-    some.push_back(spacings4[i]);
+  for (std::size_t i = 0; i < spacings.around.size(); i += spacings.around.size() / kForUnit) {
+    if (is_known(spacings.around[i])) some.push_back(spacings.around[i].spacing4);
+  }
+  if (some.empty()) return {};
   constexpr double kInCell = 1.1;  // in a lattice all have one spacing, which then lies within a cell
   const double unit4 = quantile_of(some, 0.5) / kInCell;
+  const double per_unit4 = 1 / unit4;
   Histogram histogram;
-  for (const double spacing4 : spacings4) histogram.add(spacing4 / unit4);
-  const Valley valley = surest_valley(histogram, spacings4.size());
+  std::size_t numbers = 0;
+  for (const Around& around : spacings.around) {
+    if (!is_known(around)) continue;
+    histogram.add(around.spacing4 * per_unit4);
+    ++numbers;
+  }
+  const Valley valley = surest_valley(histogram, numbers);
   if (valley.sureness < sureness) return {};
   const double spacing4 = Histogram::begin4(valley.cell) * unit4;
   if (are_on_lines(spacings, spacing4) || !are_on_hull(sized, spacing4)) return {};
