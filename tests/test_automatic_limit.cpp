@@ -595,6 +595,35 @@ TEST(AutomaticLimit, SeesOutliersByTheirDensity) {
   EXPECT_FALSE(shows_outliers(testing::lattice(50, 50)));
 }
 
+// Nearly half of the points are no outliers, and of few outliers the bound on growth takes care.
+TEST(AutomaticLimit, OutliersAreNeitherTooManyNorTooFew) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    std::vector<Point> points = testing::uniform_points(5500, seed);
+    for (const Point& p : testing::uniform_points(5500, seed + 100))
+      points.push_back({4 * p.x - 1.5, 4 * p.y - 1.5});
+    EXPECT_FALSE(shows_outliers(points)) << seed << ": a sparse rim";
+    EXPECT_FALSE(shows_outliers(square_in_outliers(12000, 200, seed))) << seed << ": few outliers";
+  }
+}
+
+// Rings of a lidar: forty that are close together, and then four far apart, along which points are close.
+TEST(AutomaticLimit, TakesRingsForNoOutliers) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    testing::Random random(seed);
+    std::vector<Point> points;
+    double radius = 10;
+    for (int ring = 0; ring < 44; ++ring) {
+      radius += ring < 40 ? 1 : 14;
+      for (int k = 0; k < 200; ++k) {
+        const double angle = (k + random.between(0, 0.5)) * 2 * 3.14159265 / 200;
+        const double at = radius + random.between(-0.1, 0.1);
+        points.push_back({at * std::cos(angle), at * std::sin(angle)});
+      }
+    }
+    EXPECT_FALSE(shows_outliers(points)) << seed;
+  }
+}
+
 // Nine tenths of the points, and four times as close together: but the others do not lie round them.
 TEST(AutomaticLimit, KeepsASparsePartThatAdjoins) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {

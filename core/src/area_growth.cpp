@@ -1,12 +1,12 @@
 #include "area_growth.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
 #include "filter_rules.hpp"
 #include "kept_words.hpp"
+#include "log_cells.hpp"
 #include "quantile.hpp"
 
 namespace polylidar::detail {
@@ -16,22 +16,19 @@ namespace {
 /// So many triangles, at most, are taken from a mesh.
 constexpr std::size_t kSampled = 4096;
 
-// The grid has 16 cells to an octave of sizes, so 4 to one of their fourth powers, by the first two bits of
-// these numbers' fractions. It begins at the size 2^(-3/4), in its unit.
-constexpr unsigned kFractionBits = 52;
-constexpr std::uint64_t kFirstCell = std::bit_cast<std::uint64_t>(0.125) >> (kFractionBits - 2);
+// The grid begins at the size 2^(-3/4), in its unit.
+constexpr std::int64_t kFirstCell = log_cell(0.125);
 
 /// The cell of a fourth power; those below the grid count to its first cell, and beyond it is `cells`, their
 /// number.
 std::size_t cell_of(double size4, std::size_t cells) {
-  const auto place = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(size4) >> (kFractionBits - 2));
-  return static_cast<std::size_t>(std::clamp(place - static_cast<std::int64_t>(kFirstCell), std::int64_t{0},
-                                             static_cast<std::int64_t>(cells)));
+  return static_cast<std::size_t>(
+      std::clamp(log_cell(size4) - kFirstCell, std::int64_t{0}, static_cast<std::int64_t>(cells)));
 }
 
 /// The fourth power of the size at which cell `c` begins.
 double cell_begin(std::size_t c) {
-  return std::bit_cast<double>((kFirstCell + c) << (kFractionBits - 2));
+  return log_cell_begin(kFirstCell + static_cast<std::int64_t>(c));
 }
 
 // The median size is so many units, as fourth powers: if all triangles have one size, as in a lattice, it

@@ -2,21 +2,20 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "automatic_constants.hpp"
+#include "log_cells.hpp"
 #include "quantile.hpp"
 
 namespace polylidar::detail {
 
 namespace {
 
-/// Numbers counted on a logarithmic scale. They are fourth powers of lengths, of which an octave has 16
-/// cells: four to one of the fourth powers, by the first two bits of their fractions.
+/// Fourth powers of lengths, counted on a logarithmic scale.
 class Histogram {
  public:
   static constexpr std::size_t kCells = 128;  // two octaves of lengths below 1 and six above
@@ -24,21 +23,16 @@ class Histogram {
   static constexpr double kSmoothedOver = 10;  ///< cells, as 1 / the sum of the squared weights
 
   void add(double length4) {
-    const std::int64_t cell = (std::bit_cast<std::int64_t>(length4) >> kBits) - kFirst;
-    ++counts_[static_cast<std::size_t>(std::clamp<std::int64_t>(cell, 0, kCells - 1))];
+    ++counts_[static_cast<std::size_t>(std::clamp<std::int64_t>(log_cell(length4) - kFirst, 0, kCells - 1))];
   }
   /// The fourth power of the length at which the cell begins.
-  static double begin4(std::size_t cell) {
-    return std::bit_cast<double>((static_cast<std::int64_t>(cell) + kFirst) << kBits);
-  }
+  static double begin4(std::size_t cell) { return log_cell_begin(kFirst + static_cast<std::int64_t>(cell)); }
   std::size_t count(std::size_t cell) const { return counts_[cell]; }
   /// Numbers in a mean cell, smoothed by a bell whose deviation is about three cells.
   Density smoothed() const;
 
  private:
-  static constexpr unsigned kBits = 50;
-  static constexpr std::int64_t kFirst =
-      (std::bit_cast<std::int64_t>(1.0) >> kBits) - static_cast<std::int64_t>(kCells / 4);
+  static constexpr std::int64_t kFirst = log_cell(1) - static_cast<std::int64_t>(kCells / 4);
 
   std::array<std::uint32_t, kCells> counts_{};
 };
@@ -63,7 +57,7 @@ Histogram::Density Histogram::smoothed() const {
   return density;
 }
 
-/// Between two peaks.
+/// A place between two peaks that is lower than both.
 struct Valley {
   std::size_t cell = 0;
   double sureness = 0;  ///< how much lower it is than both peaks, in standard deviations
