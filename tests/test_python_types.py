@@ -13,16 +13,22 @@ import unittest
 PROGRAMS = pathlib.Path(__file__).resolve().parent / "python_types"
 
 
+CACHE = tempfile.TemporaryDirectory()  # what one run of mypy learnt of NumPy serves the next
+
+
+def tearDownModule():
+    CACHE.cleanup()
+
+
 def lines_with_errors(*what):
     """Their numbers, and all that mypy says."""
-    with tempfile.TemporaryDirectory() as cache:
-        result = subprocess.run(
-            [sys.executable, "-m", "mypy", "--strict", "--config-file", os.devnull, "--cache-dir", cache, *what],
-            env={**os.environ, "MYPYPATH": os.environ["PYTHONPATH"]},
-            capture_output=True,
-            text=True,
-            check=False,
-        )
+    result = subprocess.run(
+        [sys.executable, "-m", "mypy", "--strict", "--config-file", os.devnull, "--cache-dir", CACHE.name, *what],
+        env={**os.environ, "MYPYPATH": os.environ["PYTHONPATH"]},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     found = re.findall(r"^[^:\n]+:(\d+): error: ", result.stdout, re.MULTILINE)
     if result.returncode != (1 if found else 0):
         raise AssertionError(result.stdout + result.stderr)
