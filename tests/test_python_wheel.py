@@ -2,6 +2,8 @@
 
 Run by ctest. HULLBENCH_BUILD is CMake's build folder, whose module and flags they are compared with.
 """
+import hashlib
+import importlib.metadata
 import json
 import os
 import pathlib
@@ -19,6 +21,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 BUILD = pathlib.Path(os.environ["HULLBENCH_BUILD"])
 # What a clone has that matters here. Builds leave files beside the sources, so they work on a copy.
 NEEDED = ("pyproject.toml", "setup.py", "MANIFEST.in", "LICENSE", "LICENSE-THIRD-PARTY", "CMakeLists.txt", "cmake", "core")
+PIP = (sys.executable, "-m", "pip", "--disable-pip-version-check")
 
 
 def run(*command, **options):
@@ -37,27 +40,54 @@ def flags_that_matter(command):
     return set(matter.values())
 
 
+def state_of_the_build():
+    """A hash of all that a wheel is made of: the sources, the tools and their options."""
+    state = hashlib.sha256()
+    for path in sorted(path for name in NEEDED for path in (ROOT / name, *(ROOT / name).rglob("*")) if path.is_file()):
+        content = path.read_bytes()
+        state.update(f"{path.relative_to(ROOT)} {len(content)}\0".encode() + content)
+    versions = [f"{name} {importlib.metadata.version(name)}" for name in ("pip", "setuptools", "wheel", "pybind11")]
+    compilers = [run(*shlex.split(os.environ[name]), "--version") for name in ("CC", "CXX")]
+    flags = [os.environ.get(name, "") for name in ("CC", "CXX", "CFLAGS", "CXXFLAGS")]
+    state.update(repr((sys.version, versions, compilers, flags)).encode())
+    return state.hexdigest()[:16]
+
+
+def build(folder):
+    """An sdist, a wheel made of it, and log.txt, what was said meanwhile."""
+    clone = folder / "clone"
+    clone.mkdir(parents=True)
+    for name in NEEDED:
+        copy = shutil.copytree if (ROOT / name).is_dir() else shutil.copy
+        copy(ROOT / name, clone / name)
+    # The hook that pip and build call.
+    run(sys.executable, "-c", f"from setuptools import build_meta as b; b.build_sdist({str(folder)!r})", cwd=clone)
+    (sdist,) = folder.glob("*.tar.gz")
+    # Of the sdist, so that whatever is missing in it is noticed.
+    log = run(*PIP, "wheel", "-v", "--no-index", "--no-deps", "--no-build-isolation", "-w", folder, sdist)
+    (folder / "log.txt").write_text(log)
+    shutil.rmtree(clone)
+
+
 class Wheel(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.temporary.cleanup)
         cls.folder = pathlib.Path(cls.temporary.name)
-        clone = cls.folder / "clone"
-        clone.mkdir()
-        for name in NEEDED:
-            copy = shutil.copytree if (ROOT / name).is_dir() else shutil.copy
-            copy(ROOT / name, clone / name)
-        # The hook that pip and build call.
-        run(sys.executable, "-c", "from setuptools import build_meta as b; b.build_sdist('dist')", cwd=clone)
-        (cls.sdist,) = (clone / "dist").iterdir()
-        pip = (sys.executable, "-m", "pip", "--disable-pip-version-check")
-        # Of the sdist, so that whatever is missing in it is noticed.
-        cls.log = run(*pip, "wheel", "-v", "--no-index", "--no-deps", "--no-build-isolation", "-w", cls.folder, cls.sdist)
-        (cls.wheel,) = cls.folder.glob("*.whl")
+        # Compiling takes a minute, so a wheel of the same state is used again.
+        made = BUILD / "tests" / "wheel" / state_of_the_build()
+        if not made.is_dir():
+            shutil.rmtree(made.parent, ignore_errors=True)
+            unfinished = made.with_suffix(".unfinished")
+            build(unfinished)
+            unfinished.rename(made)
+        cls.log = (made / "log.txt").read_text()
+        (cls.sdist,) = made.glob("*.tar.gz")
+        (cls.wheel,) = made.glob("*.whl")
         run(sys.executable, "-m", "venv", "--system-site-packages", "--without-pip", cls.folder / "venv")
         cls.python = cls.folder / "venv" / "bin" / "python"
-        run(cls.python, "-m", "pip", "--disable-pip-version-check", "install", "--no-index", cls.wheel)
+        run(cls.python, *PIP[1:], "install", "--no-index", cls.wheel)
 
     def in_environment(self, *words, **more):
         # Debian 13's pyproj, which GeoPandas needs, does not look for PROJ's data beyond the environment.
