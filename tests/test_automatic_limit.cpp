@@ -581,6 +581,33 @@ TEST(AutomaticLimit, LeavesManyOutliersOut) {
   }
 }
 
+// A step over records would keep step with the copies: it would look at all triangles, or at few.
+TEST(AutomaticLimit, LeavesManyOutliersOutHoweverOftenPointsAreRepeated) {
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    const std::vector<Point> points = square_in_outliers(12000, 3000, seed);
+    const double once = area(checked_hull(points));
+    std::vector<Point> repeated = points;
+    for (int copies = 2; copies <= 8; ++copies) {
+      repeated.insert(repeated.end(), points.begin(), points.end());
+      EXPECT_NEAR(area(checked_hull(repeated)) / once, 1, 0.02) << seed << ", " << copies << " copies";
+    }
+  }
+}
+
+TEST(AutomaticLimit, LooksAtAThousandSpacingsHoweverOftenPointsAreRepeated) {
+  detail::ThreadPool pool;
+  const std::vector<Point> points = testing::uniform_points(20000, 1);
+  std::vector<Point> repeated;
+  for (int copies = 1; copies <= 16; ++copies) {
+    repeated.insert(repeated.end(), points.begin(), points.end());
+    detail::DelaunayBuilder builder;
+    builder.build(repeated, pool);
+    const std::size_t seen =
+        detail::look_around_some({builder.mesh(), builder.vertices(), nullptr}).around.size();
+    EXPECT_NEAR(static_cast<double>(seen), 1024, 80) << copies << " copies";
+  }
+}
+
 TEST(AutomaticLimit, SeesOutliersByTheirDensity) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     std::vector<Point> points = square_in_outliers(12000, 2000, seed);
@@ -798,6 +825,25 @@ TEST(AutomaticLimit, IsFoundForPointsThatAreTinyBesideADistance) {
     tiny.push_back({1, 1});
     EXPECT_NEAR(std::ldexp(median_size(tiny), -exponent) / size, 1, 0.2) << exponent;
     EXPECT_EQ(concave_hull(tiny).polygon_count(), 1U) << exponent;
+  }
+}
+
+// Half of the triangles are so tiny beside the usual ones of their block that their sizes are zero in usual
+// sizes.
+TEST(AutomaticLimit, LeavesATriangleWhereHalfOfThePointsAreTinyBesideTheOthers) {
+  for (const int exponent : {-60, -90, -100, -105, -110, -116}) {
+    for (std::size_t tiny = 30; tiny <= 58; tiny += 2) {
+      testing::Random random(tiny);
+      std::vector<Point> points;
+      for (std::size_t i = 0; i < 90; ++i) {
+        const Point p{random.between(0, 1), random.between(0, 1)};
+        const double base = std::ldexp(1, exponent);
+        points.push_back(i < tiny ? Point{base * (1 + std::ldexp(std::floor(1e4 * p.x), -50)),
+                                          base * (1 + std::ldexp(std::floor(1e4 * p.y), -50))}
+                                  : Point{std::ldexp(p.x, 148), std::ldexp(p.y, 148)});
+      }
+      EXPECT_GT(concave_hull(points).polygon_count(), 0U) << exponent << ", " << tiny;
+    }
   }
 }
 

@@ -256,12 +256,34 @@ TEST(OutlineFill, IsAskedOfFlatTrianglesAcrossWideGaps) {
   EXPECT_FALSE(is_asked(lines(3000, 1))) << "flat, but not across wide gaps";
 }
 
-// Of the triangles that are looked at for being flat there is one, of those for wide gaps none.
-TEST(OutlineFill, IsNotAskedWhereCopiesLeaveHardlyATriangleToLookAt) {
+// A step over all records would find hardly a triangle.
+TEST(OutlineFill, IsAskedWhereMostPointsAreCopies) {
+  std::vector<Point> curve;
+  for (int i = 0; i < 300; ++i) curve.push_back({static_cast<double>(i), 1e-6 * i * i});
+  EXPECT_TRUE(is_asked(curve));
   for (const std::size_t copies : {635'292U, 737'983U}) {
     std::vector<Point> points(copies, Point{0, 0});
-    for (int i = 1; i < 300; ++i) points.push_back({static_cast<double>(i), 1e-6 * i * i});
-    EXPECT_FALSE(is_asked(points)) << copies;
+    points.insert(points.end(), curve.begin(), curve.end());
+    EXPECT_TRUE(is_asked(points)) << copies;
+  }
+}
+
+// A ring that is closed by its first point, as in many files, has as many points as without it.
+TEST(OutlineFill, OfEightPointsOnAConvexOutlineIsTheHullAlsoIfTheRingIsClosed) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    testing::Random random(seed);
+    for (const int count : {7, 8, 9}) {
+      std::vector<Point> ring;
+      for (int i = 0; i < count; ++i) {
+        const double angle = random.between(0, 6.283);
+        ring.push_back({3 * std::cos(angle), std::sin(angle)});
+      }
+      std::vector<Point> closed = ring;
+      closed.push_back(ring[0]);
+      EXPECT_EQ(area(to_coordinates(concave_hull(closed), closed)),
+                area(to_coordinates(concave_hull(ring), ring)))
+          << seed << ", " << count;
+    }
   }
 }
 

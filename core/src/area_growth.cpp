@@ -8,6 +8,7 @@
 #include "kept_words.hpp"
 #include "log_cells.hpp"
 #include "quantile.hpp"
+#include "some_triangles.hpp"
 
 namespace polylidar::detail {
 
@@ -43,17 +44,12 @@ void AreaGrowth::sample(const SizedMesh& sized, std::span<const std::uint32_t> b
   per_square_.resize(usual4_of_block.size());
   std::transform(usual4_of_block.begin(), usual4_of_block.end(), per_square_.begin(),
                  [](double usual4) { return 1 / std::sqrt(usual4); });
-  for (std::size_t step = (mesh.triangle_count() / kSampled) | 1U;; step = 1) {
-    samples_.clear();
-    for (std::size_t i = 0; i < mesh.triangle_count(); i += step) {
-      const auto t = static_cast<Mesh::Index>(i);
-      if (mesh.is_ghost(t)) continue;
-      const double per_square = per_square_[block_of_vertex[t / 2]];
-      samples_.push_back(
-          {sized.size4_of(t) * (per_square * per_square), sized.triangle(t).twice_area() * per_square});
-    }
-    if (step == 1 || samples_.size() >= kSampled / 4) break;
-  }
+  samples_.clear();
+  for_some_triangles(mesh, kSampled, [&](Mesh::Index t) {
+    const double per_square = per_square_[block_of_vertex[t / 2]];
+    samples_.push_back(
+        {sized.size4_of(t) * (per_square * per_square), sized.triangle(t).twice_area() * per_square});
+  });
 }
 
 void AreaGrowth::sum_up() {
@@ -63,7 +59,9 @@ void AreaGrowth::sum_up() {
   for (std::size_t i = 0; i < samples_.size(); i += samples_.size() / kForMedian + 1) {
     scratch_.push_back(samples_[i].size4);
   }
-  unit4_ = quantile_of(scratch_, 0.5) / kInCell;
+  // Not zero where most triangles are tiny beside the usual ones of their block.
+  constexpr double kLeast4 = 0x1p-900;
+  unit4_ = std::max(quantile_of(scratch_, 0.5), kLeast4) / kInCell;
   area_.fill(0);
   const double per_unit4 = 1 / unit4_;
   for (const Sampled& one : samples_) area_[cell_of(one.size4 * per_unit4, kCells)] += one.area;

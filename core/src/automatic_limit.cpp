@@ -70,18 +70,24 @@ void measure_pair(const Mesh& mesh, const Point* vertices, Mesh::Index first, do
   std::memcpy(size4, &sizes, sizeof sizes);
 }
 
-/// The share of the records that are used. Points that repeat others leave theirs unused. It is estimated
-/// from a few hundred records, and from more if many of these are unused. They are at multiples of the golden
-/// ratio modulo 1, which are spread evenly and keep step with no pattern of repeats.
+/// The share of the records that are used. Points that repeat others leave theirs unused. Up to a few hundred
+/// records are counted. Of more it is estimated from so many, and from more of them if many are unused. These
+/// are at multiples of the golden ratio modulo 1, which are spread evenly and keep step with no pattern of
+/// repeats.
 double used_share(const Mesh& mesh) {
   constexpr std::uint32_t kGolden = 0x9E3779B1;  // its fraction, of 2^32
   constexpr std::uint32_t kLookedAt = 512;
   constexpr std::uint32_t kMostLookedAt = 8192;
-  if (mesh.triangle_count() == 0) return 1;
+  const Mesh::Index count = mesh.triangle_count();
+  if (count == 0) return 1;
   std::uint32_t used = 0;
+  if (count <= kLookedAt) {
+    for (Mesh::Index t = 0; t < count; ++t) used += mesh.is_unused(t) ? 0U : 1U;
+    return static_cast<double>(used) / static_cast<double>(count);
+  }
   for (std::uint32_t seen = 0;;) {
     const std::uint32_t turned = seen * kGolden;  // modulo 2^32
-    const std::uint64_t place = std::uint64_t{turned} * mesh.triangle_count() >> 32U;
+    const std::uint64_t place = std::uint64_t{turned} * count >> 32U;
     used += mesh.is_unused(static_cast<Mesh::Index>(place)) ? 0U : 1U;
     ++seen;
     const bool are_few_unused = 16 * used >= 15 * seen;
@@ -91,9 +97,11 @@ double used_share(const Mesh& mesh) {
   }
 }
 
-/// About how many points of the mesh do not repeat others; at least 3, as any triangle has so many.
+/// How many points of the mesh do not repeat others, about: each but one has two records. At least 3, as any
+/// triangle has so many.
 double distinct_points(const DelaunayBuilder& builder) {
-  return std::max(3.0, used_share(builder.mesh()) * static_cast<double>(builder.vertex_count()));
+  const double others = static_cast<double>(builder.vertex_count()) - 1;
+  return std::max(3.0, 1 + used_share(builder.mesh()) * others);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "filter_rules.hpp"
 #include "quantile.hpp"
+#include "some_triangles.hpp"
 
 namespace polylidar::detail {
 
@@ -41,12 +42,8 @@ std::optional<double> squared_outline_step(const Mesh& mesh, const Point* vertic
   constexpr double kMedianGap = 0.6931471805599453;  // log 2, of the mean
   const bool is_convex = points >= kFewestOnHull && points < kMostOnHull && are_all_on_hull(mesh);
   if (points < kFewest && !is_convex) return std::nullopt;
-  // Of about so many records.
   const auto for_some = [&](std::size_t number, const auto& visit) {
-    for (std::size_t i = 0; i < mesh.triangle_count(); i += (mesh.triangle_count() / number) | 1U) {
-      const auto t = static_cast<Mesh::Index>(i);
-      if (!mesh.is_ghost(t)) visit(Triangle(mesh, vertices, t));
-    }
+    for_some_triangles(mesh, number, [&](Mesh::Index t) { visit(Triangle(mesh, vertices, t)); });
   };
   std::size_t looked_at = 0;
   std::size_t flat = 0;
@@ -66,7 +63,7 @@ std::optional<double> squared_outline_step(const Mesh& mesh, const Point* vertic
     shortest.push_back(edges[0]);
     second.push_back(edges[1]);
   });
-  if (second.empty()) return std::nullopt;  // nearly all records are unused
+  if (second.empty()) return std::nullopt;
   const double steps = (std::log(points) + step) / kMedianGap;
   const double squared_step = quantile_of(shortest, 0.5) * steps * steps;
   const auto longer =

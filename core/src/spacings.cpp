@@ -2,35 +2,22 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+
+#include "some_triangles.hpp"
 
 namespace polylidar::detail {
 
 namespace {
 
-constexpr Mesh::Index kMostSpacings = 1024;  // about so many are looked at
+constexpr std::size_t kMostSpacings = 1024;  // about so many are looked at
 
 /// As whole numbers doubles that are not negative have the same order, and the smaller of two is found
 /// without a branch. NaN, here that of a ghost, is above infinity.
 std::uint64_t in_order(double size4) {
   return std::bit_cast<std::uint64_t>(size4);
-}
-
-/// The first corners of about `kMostSpacings` triangles, evenly over the mesh.
-std::vector<Mesh::Index> corners_to_look_at(const Mesh& mesh) {
-  std::vector<Mesh::Index> corners;
-  corners.reserve(std::size_t{2} * kMostSpacings);
-  for (Mesh::Index step = (mesh.triangle_count() / kMostSpacings) | 1U;; step = 1) {
-    corners.clear();
-    for (std::size_t i = 0; i < mesh.triangle_count(); i += step) {
-      const auto t = static_cast<Mesh::Index>(i);
-      if (!mesh.is_ghost(t)) corners.push_back(Mesh::kStride * t);
-    }
-    if (step == 1 || corners.size() >= kMostSpacings / 4) return corners;
-  }
 }
 
 }  // namespace
@@ -60,7 +47,9 @@ Around look_around(const SizedMesh& sized, Mesh::Index e) {
 
 Spacings look_around_some(const SizedMesh& sized) {
   Spacings result;
-  result.corners = corners_to_look_at(sized.mesh);
+  result.corners.reserve(std::size_t{2} * kMostSpacings);
+  for_some_triangles(sized.mesh, kMostSpacings,
+                     [&](Mesh::Index t) { result.corners.push_back(Mesh::kStride * t); });
   result.around.reserve(result.corners.size());
   for (const Mesh::Index corner : result.corners) result.around.push_back(look_around(sized, corner));
   return result;
