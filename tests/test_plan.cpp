@@ -504,9 +504,9 @@ TEST(Field, AnEntryOfThePlanChangesWhatItSaysOfOneThatIsTaken) {
                         {{"method", "spatialite"}, {"protocol", "default"}, {"repetitions", 3}},
                         {{"method", "spatialite"}, {"protocol", "paper"}, {"parameters", {{"c", 2}}}}};
   const plan::Plan plan =
-      plan_of_field({{"field", {"spatialite/default", "concaveman"}}, {"methods", entries}});
+      plan_of_field({{"field", {"spatialite/default", "knn_hull"}}, {"methods", entries}});
   EXPECT_EQ(ways_of(plan),
-            (Ways{"spatialite/default", "concaveman/default", "mine/default", "spatialite/paper"}));
+            (Ways{"spatialite/default", "knn_hull/default", "mine/default", "spatialite/paper"}));
   json expected = plan::plan_to_json(plan_of_field({{"field", {"spatialite/default"}}})).at("methods").at(0);
   EXPECT_TRUE(expected.contains("note") && expected.contains("parameters"));
   expected["repetitions"] = 3;
@@ -699,8 +699,8 @@ TEST(Plan, EveryRuleFromThePointsIsUnderAuto) {
       for (const auto& [name, choice] : method.parameters) {
         const auto* rule = std::get_if<plan::RuleChoice>(&choice);
         const bool automatic = rule != nullptr && rule->rule.starts_with("auto_");
-        const bool of_holes = name == "allow_holes";
-        EXPECT_TRUE(of_holes || automatic == (method.protocol == "auto"))
+        const bool a_number = name == "allow_holes" || name == "concavity";
+        EXPECT_TRUE(a_number || automatic == (method.protocol == "auto"))
             << plan.name << ": " << method.method << " under " << method.protocol << ", " << name;
       }
     }

@@ -59,7 +59,8 @@ class TuneTest : public HullbenchTest {
   }
 
   /// A method in Python, for which a manifest is written.
-  void method(const std::string& name, const std::string& parameters, const std::string& run) const {
+  void method(const std::string& name, const std::string& parameters, const std::string& run,
+              bool holes = false) const {
     const json manifest = {{"manifest_version", 1},
                            {"name", name},
                            {"title", name},
@@ -67,7 +68,7 @@ class TuneTest : public HullbenchTest {
                            {"citation", "a test"},
                            {"native_output", "a ring"},
                            {"parameters", json::parse(parameters)},
-                           {"capabilities", {{"holes", false}, {"several_polygons", false}}},
+                           {"capabilities", {{"holes", holes}, {"several_polygons", false}}},
                            {"command", {SYSTEM_PYTHON, "./" + name + ".py"}}};
     write_text(methods() / (name + ".json"), manifest.dump());
     write_text(methods() / (name + ".py"),
@@ -225,6 +226,67 @@ TEST_F(TuneTest, AMethodThatAPlanDoesNotWantSearchedKeepsWhatThePlanHas) {
   ASSERT_EQ(tuned.at("methods").size(), 1U);
   for (const char* key : {"protocol", "parameters", "search"})
     EXPECT_EQ(tuned.at("methods")[0].at(key), plan.at("methods")[0].at(key)) << key;
+}
+
+TEST_F(TuneTest, AValueIsChosenOnCasesThatTheMethodCanMatch) {
+  const json cases = {{{"dataset", {"star", "parts"}}, {"members", 3}, {"n", {200}}},
+                      {{"dataset", "country-1"}, {"n", {200}}}};
+  succeeded(tune(plan(cases), "disc", "out"));
+  const json method = method_of(summary("out"), "disc");
+  EXPECT_EQ(method.at("tuned").at("training_cases"), 3) << "a disc is no several parts";
+  EXPECT_EQ(method.at("rounds").back().at("cases"), 3);
+  for (const json& line : sweep("out"))
+    EXPECT_NE(line.at("dataset").get<std::string>().substr(0, 5), "parts");
+  expect_valid("out/tune.json");
+}
+
+/// Of a disc that becomes nearly nothing under a condition.
+std::string shrinking_disc(const std::string& parameters, const std::string& condition) {
+  return "def run(points, " + parameters + "):\n    if " + condition +
+         ": radius = 1e-6\n"
+         "    angles = 2 * math.pi * numpy.arange(64) / 64\n"
+         "    return [[points.mean(axis=0) + radius * numpy.stack([numpy.cos(angles), numpy.sin(angles)], "
+         "1)]]\n";
+}
+
+TEST_F(TuneTest, HolesAreSwitchedOffWhereThatIsBetter) {
+  method("reluctant", R"([{"name": "radius", "unit": "length", "description": "Of the disc.", "minimum": 0,
+                           "maximum": null, "default": 1},
+                          {"name": "allow_holes", "unit": "switch", "description": "Breaks it.", "minimum": 0,
+                           "maximum": 1, "default": 0}])",
+         shrinking_disc("radius, allow_holes", "allow_holes"), true);
+  succeeded(tune(plan(both_sides(2)), "reluctant", "out"));
+  const json found = method_of(summary("out"), "reluctant");
+  EXPECT_EQ(found.at("tuned").at("fixed"), (json{{"allow_holes", 0}}));
+  EXPECT_LT(found.at("tuned").at("training_median"), 0.9);
+  for (const json& choice :
+       found.at("oracle"))  // the middle of the points may lie outside, where no disc is good
+    EXPECT_TRUE(choice.at("parameters").at("allow_holes") == 0 || choice.at("l2") > 0.99) << choice;
+  for (const json& round : found.at("rounds"))
+    EXPECT_EQ(round.at("scores").size(), round.at("scores_without_holes").size());
+  for (const json& entry : read_json("out/small-tuned.json").at("methods")) {
+    if (entry.at("protocol") == "tuned") EXPECT_EQ(entry.at("parameters").at("allow_holes"), 0);
+  }
+  expect_valid("out/tune.json");
+}
+
+TEST_F(TuneTest, WhatAutoChoosesIsSearchedBesideItsNumbers) {
+  method("two", R"([{"name": "power", "unit": "1", "description": "0, or it breaks.", "minimum": 0,
+                     "maximum": null, "default": 2},
+                    {"name": "radius", "unit": "length", "description": "Of the disc.", "minimum": 0,
+                     "maximum": null, "default": 1}])",
+         shrinking_disc("power, radius", "power > 0"));
+  json source = small_plan("small", both_sides(2));
+  source["methods"] =
+      json::array({{{"method", "two"},
+                    {"protocol", "auto"},
+                    {"parameters", {{"power", 0}, {"radius", {{"rule", "auto_edge_length"}}}}}}});
+  succeeded(tune(write(source), "two", "out"));
+  const json found = method_of(summary("out"), "two");
+  EXPECT_EQ(found.at("axis").at("parameter"), "radius");
+  EXPECT_EQ(found.at("fixed"), (json{{"power", 0}}));
+  EXPECT_LT(found.at("tuned").at("training_median"), 0.9);
+  for (const json& choice : found.at("oracle")) EXPECT_EQ(choice.at("parameters").at("power"), 0);
 }
 
 TEST_F(TuneTest, FailuresAreEvaluationsAndInfinitelyBad) {

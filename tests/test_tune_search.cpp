@@ -253,7 +253,7 @@ class InventedTuning {
     const auto add = [&](std::size_t i, double position, bool on_grid) {
       const tune::TuningCase& one = tuning.cases[i];
       const double error = error_of(one, position);
-      method.cases[i].sweep.push_back({position, on_grid, evaluation(one, position, error)});
+      method.cases[i].sweep.push_back({position, on_grid, true, evaluation(one, position, error)});
       ++evaluations;
       return tune::Trial{error, false};
     };
@@ -502,7 +502,7 @@ TEST(SearchCostTest, IsWhatTheSearchHasFoundByThen) {
     method.cases[i].sweep.clear();
     const auto add = [&](double position, double error, bool on_grid) {
       method.cases[i].sweep.push_back(
-          {position, on_grid, invented.evaluation(invented.tuning.cases[i], position, error)});
+          {position, on_grid, true, invented.evaluation(invented.tuning.cases[i], position, error)});
     };
     const std::vector<double> positions = tune::grid(*method.axis, tune::kSweepPoints);
     // Four of the nine positions were given up: they are failures.

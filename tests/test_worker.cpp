@@ -209,21 +209,22 @@ TEST_F(MethodSessionTest, AWorkerThatDiedIsStartedAgain) {
   EXPECT_NE(session_->pid(), first);
 }
 
-TEST_F(MethodSessionTest, AMethodThatCompilesIsWarmUntilThreeRunsAgree) {
+TEST_F(MethodSessionTest, AMethodThatCompilesIsWarmWhenItGetsNoFaster) {
   const worker::Attempt first = warm_up("gets_faster");
   EXPECT_EQ(to_string(first.status), "ok") << first.detail;
   EXPECT_EQ(first.time_ns(), 8'000'000 + 1) << "the time of the first run";
   EXPECT_FALSE(session_->is_cold());
-  EXPECT_EQ(run().time_ns(), 1'000'000 + 7) << "the fourth, fifth and sixth run took the same";
+  // From the 90th run on it is faster: after 100 runs the best of the last 25 is below that of the 25 before.
+  EXPECT_EQ(run().time_ns(), 800'000 + 116) << "the runs 66 to 90 were no slower than 91 to 115";
   session_->quit(10s);
   EXPECT_TRUE(session_->is_cold()) << "the next process is another one";
   run();
   EXPECT_TRUE(session_->is_cold()) << "nobody has warmed it up";
 }
 
-TEST_F(MethodSessionTest, AMethodThatIsNeverSteadyIsWarmAfterAWhile) {
+TEST_F(MethodSessionTest, AMethodThatTakesLongIsWarmAfterAWhile) {
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_EQ(to_string(warm_up("never_steady").status), "ok");
+  EXPECT_EQ(to_string(warm_up("takes_long").status), "ok");
   EXPECT_GE(std::chrono::steady_clock::now() - start, worker::kWarmUpTime);
   EXPECT_FALSE(session_->is_cold());
 }

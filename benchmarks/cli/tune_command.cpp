@@ -49,10 +49,6 @@ std::vector<plan::Plan> load_plans(const TuneCommand& command, const run::Method
     const auto same = [&](const plan::Plan& other) { return other.name == plan.name; };
     if (std::ranges::any_of(plans, same))
       throw ConfigurationError("the plan '" + plan.name + "' is named twice; leave one out");
-    if (command.timeout_s) {
-      plan.timeout_s = *command.timeout_s;
-      for (plan::PlanMethod& entry : plan.methods) entry.timeout_s.reset();
-    }
     plan::check_plan(plan, catalog.names(), datasets());
     plans.push_back(std::move(plan));
   }
@@ -79,6 +75,14 @@ std::vector<std::string> chosen_methods(const std::string& pattern, const run::M
                              "'; 'hullbench list' shows the names");
   }
   return chosen;
+}
+
+/// For the search alone: a plan with the chosen parameters keeps the limits of its plan.
+void limit_time(std::vector<tune::TuningCase>& cases, double timeout_s) {
+  for (tune::TuningCase& one : cases) {
+    one.timeout_s = timeout_s;
+    for (plan::PlanMethod& entry : one.entries) entry.timeout_s.reset();
+  }
 }
 
 /// Those of `methods` that are in the shard: every count-th.
@@ -114,6 +118,19 @@ void read_other_sweeps(const fs::path& folder, const std::string& own, run::RowS
   for (const fs::path& file : others) store.read_rows(file);
 }
 
+/// What `auto` chooses by a rule is what is searched, beside the same numbers; none of other protocols.
+std::optional<tune::Searched> searched_of(const plan::PlanMethod& entry) {
+  if (entry.protocol != "auto") return std::nullopt;
+  tune::Searched searched;
+  for (const auto& [name, choice] : entry.parameters) {
+    const auto* number = std::get_if<double>(&choice);
+    const bool is_of_holes = name.find("hole") != std::string::npos;
+    if (number != nullptr && !is_of_holes) searched.others[name] = *number;
+    if (std::holds_alternative<plan::RuleChoice>(choice)) searched.parameter = name;
+  }
+  return searched.parameter.empty() ? std::nullopt : std::optional(searched);
+}
+
 tune::TunerOptions tuner_options(const TuneCommand& command, const run::MethodCatalog& catalog,
                                  const std::vector<plan::Plan>& plans, const json& tool) {
   tune::TunerOptions options;
@@ -130,6 +147,7 @@ tune::TunerOptions tuner_options(const TuneCommand& command, const run::MethodCa
   for (const plan::Plan& plan : plans) {
     options.mem_limit_mib = std::max(options.mem_limit_mib, plan.mem_limit_mib);
     for (const plan::PlanMethod& entry : plan.methods) {
+      if (const auto searched = searched_of(entry)) options.searched.emplace(entry.method, *searched);
       options.mem_limit_mib = std::max(options.mem_limit_mib, entry.mem_limit_mib.value_or(0));
       if (!entry.search) options.not_searched.insert(entry.method);
     }
@@ -190,6 +208,7 @@ ExitCode tune_plans(const TuneCommand& command) {
   const json tool = describe_tool();
   const tune::TunerOptions options = tuner_options(command, catalog, plans, tool);
   std::vector<tune::TuningCase> cases = tune::tuning_cases(plans);
+  if (command.timeout_s) limit_time(cases, *command.timeout_s);
   if (cases.empty() || options.methods.empty()) {
     std::cerr << "hullbench: "
               << (cases.empty() ? "no case is on a side of the split (benchmarks/tune/split.cpp)"
@@ -234,7 +253,8 @@ void add_tune(CLI::App& app, Action& action) {
   options.add_option("--out", command->out, "Folder for the results, instead of results/tune/PLAN");
   options
       .add_option("--timeout", command->timeout_s,
-                  "Time limit of one evaluation in seconds, instead of the plan's")
+                  "Time limit of one evaluation in seconds, instead of the plan's; the plans that are "
+                  "written keep theirs")
       ->check(timeout_range());
   options
       .add_option("--jobs", command->jobs,

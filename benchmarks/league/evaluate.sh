@@ -16,7 +16,7 @@ out=$2
 read -r -a plans <<<"${PLANS:-world_shapes world_samplers world_crossed}"
 # All that are installed but the steps of some, which are the same methods again.
 methods=${METHODS:-'(?![a-z_]*_steps(/|$))[a-z0-9_]*'}
-# Seconds for one evaluation of 2000 points: a hundred times what the slow ones take.
+# Seconds for one evaluation of the search. What was chosen is measured with the limits of the plans.
 timeout=5
 parts=$(nproc)
 

@@ -30,7 +30,7 @@ std::optional<double> error_with(const MethodTuning& method, const MethodOnCase&
   if (protocol == "oracle") return method.axis ? std::optional(best_error(found)) : std::nullopt;
   if (protocol == "tuned") {
     if (!tuned || found.sweep.empty()) return std::nullopt;
-    return error_at(found, tuned->position);
+    return error_at(found, tuned->position, tuned->holes);
   }
   const auto place = found.protocols.find(protocol);
   return place == found.protocols.end() ? std::nullopt : std::optional(error_of(place->second));
@@ -75,13 +75,14 @@ double median_of_least(const std::vector<double>& errors, std::size_t count) {
   return errors.back();
 }
 
-/// What the search had found on a case after 1, 2, ... evaluations. The tuned value is tried there too, but
-/// not by the search.
+/// What the search with holes had found on a case after 1, 2, ... evaluations. The tuned value is tried there
+/// too, but not by the search.
 std::vector<double> errors_reached(const MethodTuning& method, const MethodOnCase& found) {
   const auto tuned = choose_tuned(method);
   std::vector<double> swept;
   std::vector<double> refined;
   for (const SweepEvaluation& one : found.sweep) {
+    if (!one.holes) continue;
     if (one.on_grid) {
       swept.push_back(error_of(one.evaluation));
     } else if (!tuned || one.position != tuned->position) {
@@ -139,19 +140,29 @@ std::optional<double> tolerance_octaves(std::vector<SearchPoint> points) {
 std::optional<double> tolerance_octaves(const MethodOnCase& found) {
   std::vector<SearchPoint> points;
   points.reserve(found.sweep.size());
-  for (const SweepEvaluation& one : found.sweep)
-    points.push_back({one.position, error_of(one.evaluation), one.on_grid});
+  for (const SweepEvaluation& one : found.sweep) {
+    if (one.holes) points.push_back({one.position, error_of(one.evaluation), one.on_grid});
+  }
   return tolerance_octaves(std::move(points));
 }
 
 std::optional<TunedValue> choose_tuned(const MethodTuning& method) {
   if (method.rounds.empty()) return std::nullopt;
   const HalvingRound& last = method.rounds.back();
-  const auto best = std::ranges::min_element(last.scores);
-  if (best == last.scores.end() || is_infinitely_bad(*best)) return std::nullopt;
-  const double position = last.positions[static_cast<std::size_t>(best - last.scores.begin())];
   const std::vector<double> all = grid(*method.axis, kGridPoints);
-  return TunedValue{position, *best, last.cases, position == all.front() || position == all.back()};
+  TunedValue tuned = {.training_median = kInfinitelyBad, .training_cases = last.cases};
+  const auto consider = [&](const std::vector<double>& scores, bool holes) {
+    const auto best = std::ranges::min_element(scores);
+    if (best == scores.end() || !(*best < tuned.training_median)) return;
+    tuned.position = last.positions[static_cast<std::size_t>(best - scores.begin())];
+    tuned.training_median = *best;
+    tuned.holes = holes;
+  };
+  consider(last.scores, true);
+  consider(last.scores_without_holes, false);
+  if (is_infinitely_bad(tuned.training_median)) return std::nullopt;
+  tuned.at_end = tuned.position == all.front() || tuned.position == all.back();
+  return tuned;
 }
 
 Quartiles quartiles_of(const std::vector<double>& values) {

@@ -31,13 +31,15 @@ struct TunedValue {
   double position = 0;         ///< of the grid, on the method's axis
   double training_median = 0;  ///< of l2 there, weighted (strata.hpp)
   std::size_t training_cases = 0;
+  bool holes = true;    ///< whether holes are switched on, if they can be
   bool at_end = false;  ///< it is the first or the last of the grid: better ones may lie outside
 };
 
-/// The best position of the last round of successive halving (halving.hpp): that with the smallest weighted
-/// median of l2 over all training cases; the smaller one of two that are equally good. The median, as
-/// failures are infinitely bad: by the mean a single one would rule a value out. None without a round, and
-/// when no position gives a result on half of the weight.
+/// The best position of the last round of successive halving (halving.hpp), with holes or without: that with
+/// the smallest weighted median of l2 over all training cases on which the method was tried; with holes and
+/// the smaller one of two that are equally good. The median, as failures are infinitely bad: by the mean a
+/// single one would rule a value out. None without a round, and when no position gives a result on half of
+/// the weight.
 std::optional<TunedValue> choose_tuned(const MethodTuning& method);
 
 /// Of several errors or differences; kInfinitelyBad where the middle is a failure.

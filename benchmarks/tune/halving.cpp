@@ -13,11 +13,11 @@ namespace {
 
 /// The weighted median over those of these cases that were searched; a failure where none was.
 double score_of(const Tuning& tuning, const MethodTuning& method, const std::vector<std::size_t>& places,
-                double position) {
+                double position, bool holes) {
   WeighedValues errors;
   for (const std::size_t place : places) {
     const MethodOnCase& found = method.cases[place];
-    if (!found.sweep.empty()) errors.add(tuning.cases[place].membership(), error_at(found, position));
+    if (!found.sweep.empty()) errors.add(tuning.cases[place].membership(), error_at(found, position, holes));
   }
   return errors.empty() ? kInfinitelyBad : errors.median();
 }
@@ -59,7 +59,11 @@ std::vector<double> better_half(const std::vector<double>& positions, const std:
 
 std::vector<double> positions_of_round(const MethodTuning& method, std::size_t round) {
   if (round == 0) return grid(*method.axis, kGridPoints);
-  return better_half(method.rounds[round - 1].positions, method.rounds[round - 1].scores);
+  const HalvingRound& before = method.rounds[round - 1];
+  std::vector<double> scores = before.scores;
+  for (std::size_t k = 0; k < before.scores_without_holes.size(); ++k)
+    scores[k] = std::min(scores[k], before.scores_without_holes[k]);
+  return better_half(before.positions, scores);
 }
 
 std::vector<TrainingItem> items_of_round(const Tuning& tuning, std::size_t round) {
@@ -80,9 +84,14 @@ void end_round(Tuning& tuning, std::size_t round) {
   places.resize(round_ends(places.size())[round]);
   for (MethodTuning& method : tuning.methods) {
     if (!method.axis) continue;
-    HalvingRound added = {places.size(), positions_of_round(method, round), {}};
-    for (const double position : added.positions)
-      added.scores.push_back(score_of(tuning, method, places, position));
+    const auto tried =
+        std::ranges::count_if(places, [&](std::size_t place) { return !method.cases[place].sweep.empty(); });
+    HalvingRound added = {static_cast<std::size_t>(tried), positions_of_round(method, round), {}, {}};
+    for (const bool holes : choices_of_holes(*method.info)) {
+      std::vector<double>& scores = holes ? added.scores : added.scores_without_holes;
+      for (const double position : added.positions)
+        scores.push_back(score_of(tuning, method, places, position, holes));
+    }
     method.rounds.push_back(std::move(added));
   }
 }

@@ -1,7 +1,8 @@
 // One value for many shapes at a bounded cost: successive halving (Jamieson and Talwalkar, Non-stochastic
 // Best Arm Identification and Hyperparameter Optimization, 2016). All positions of a method's grid are tried
 // on the first quarter of the training cases, the better half of them on the next quarter, and the better
-// half of these on the rest. The same for every method.
+// half of these on the rest. The same for every method; where holes can be switched off, each position is
+// tried with them and without, and counts with the better of its two scores.
 #pragma once
 
 #include <cstddef>

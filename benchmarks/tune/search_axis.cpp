@@ -14,8 +14,11 @@ bool is_length(const ParameterInfo& parameter) {
 }
 
 /// Null when the method has none.
-const ParameterInfo* searched_parameter(const MethodInfo& info) {
+const ParameterInfo* searched_parameter(const MethodInfo& info, const std::string& wanted) {
   const auto& all = info.parameters;
+  const auto named =
+      std::ranges::find_if(all, [&](const ParameterInfo& parameter) { return parameter.name == wanted; });
+  if (named != all.end()) return &*named;
   const auto first =
       std::ranges::find_if(all, [](const ParameterInfo& parameter) { return parameter.unit != "switch"; });
   if (first == all.end()) return nullptr;
@@ -30,8 +33,8 @@ double rounded(const SearchAxis& axis, double value) {
 
 }  // namespace
 
-std::optional<SearchAxis> search_axis(const MethodInfo& info) {
-  const ParameterInfo* searched = searched_parameter(info);
+std::optional<SearchAxis> search_axis(const MethodInfo& info, const std::string& wanted) {
+  const ParameterInfo* searched = searched_parameter(info, wanted);
   if (searched == nullptr || searched->minimum < 0) return std::nullopt;
   for (const ParameterInfo& other : info.parameters) {
     if (&other != searched && !other.default_value) return std::nullopt;
@@ -73,13 +76,18 @@ double value_at(const SearchAxis& axis, double position, double spacing) {
   return std::clamp(rounded(axis, axis.power == 2 ? length * length : length), axis.minimum, axis.maximum);
 }
 
-Parameters fixed_parameters(const MethodInfo& info) {
+Parameters fixed_parameters(const MethodInfo& info, bool holes) {
   Parameters fixed;
   for (const ParameterInfo& parameter : info.parameters) {
     const bool of_holes = parameter.unit == "switch" && parameter.name.find("hole") != std::string::npos;
-    if (of_holes && info.capabilities.holes) fixed[parameter.name] = 1;
+    if (of_holes && info.capabilities.holes) fixed[parameter.name] = holes ? 1 : 0;
   }
   return fixed;
+}
+
+std::vector<bool> choices_of_holes(const MethodInfo& info) {
+  if (fixed_parameters(info).empty()) return {true};
+  return {true, false};
 }
 
 }  // namespace hullbench::tune

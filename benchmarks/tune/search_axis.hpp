@@ -27,12 +27,12 @@ struct SearchAxis {
   double maximum = 0;  ///< of the parameter; infinity when there is none
 };
 
-/// The axis of the method's first parameter that is no switch; a first parameter that is a ratio gives way to
-/// a length, which lies on the common axis. From 1/8 to 32 (spacings, or the number itself), moved as little
-/// as needed to lie in the parameter's range and cut where the range is shorter. None when the method has no
-/// such parameter, when the parameter may be negative (there is no logarithm), or when it has another one
-/// that it cannot do without.
-std::optional<SearchAxis> search_axis(const MethodInfo& info);
+/// The axis of the parameter `wanted` or, if that is empty, of the method's first parameter that is no
+/// switch; a first parameter that is a ratio gives way to a length, which lies on the common axis. From 1/8
+/// to 32 (spacings, or the number itself), moved as little as needed to lie in the parameter's range and cut
+/// where the range is shorter. None when the method has no such parameter, when the parameter may be negative
+/// (there is no logarithm), or when it has another one that it cannot do without.
+std::optional<SearchAxis> search_axis(const MethodInfo& info, const std::string& wanted = "");
 
 /// `count` >= 2 positions, evenly spaced in the logarithm from low to high, ascending; of a count only those
 /// that are whole numbers after rounding, each once.
@@ -42,8 +42,11 @@ std::vector<double> grid(const SearchAxis& axis, int count);
 /// mean spacing.
 double value_at(const SearchAxis& axis, double position, double spacing);
 
-/// What is given besides the searched parameter: every switch for holes set to 1 where the method's result
-/// can have holes.
-Parameters fixed_parameters(const MethodInfo& info);
+/// What is given besides the searched parameter, of a method whose result can have holes: every switch for
+/// holes set to 1 or, without `holes`, to 0.
+Parameters fixed_parameters(const MethodInfo& info, bool holes = true);
+
+/// Whether holes can be switched on or off: {true, false}; else {true}.
+std::vector<bool> choices_of_holes(const MethodInfo& info);
 
 }  // namespace hullbench::tune

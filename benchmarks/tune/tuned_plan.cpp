@@ -75,7 +75,7 @@ void add_tuned(plan::Plan& result, const plan::Plan& plan, const Tuning& tuning,
   if (cases.empty()) return;
   plan::PlanMethod entry = entry_for(plan, method.name, "tuned");
   entry.datasets = datasets_of(plan, tuning, cases);
-  entry.parameters = as_choices(fixed_parameters(*method.info));
+  entry.parameters = as_choices(fixed_parameters(method, tuned->holes));
   entry.parameters[method.axis->parameter] =
       method.axis->spacings ? plan::ParameterChoice(plan::ScaledChoice{tuned->position, method.axis->power})
                             : plan::ParameterChoice(tuned->position);

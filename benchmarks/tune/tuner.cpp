@@ -195,22 +195,31 @@ class TuningThread {
     return method.axis && !drawn_->set().ground_truth.empty() && (!method.axis->spacings || spacing_ > 0);
   }
 
+  /// Whether the method's result can be like the truth: a value is not chosen by cases on which all are bad.
+  bool can_match(const MethodTuning& method) const {
+    const MultiPolygon& truth = drawn_->set().ground_truth;
+    const Capabilities& able = method.info->capabilities;
+    return (able.holes || metrics::count_holes(truth) == 0) && (able.several_polygons || truth.size() == 1);
+  }
+
   const record::RunRecord& evaluate_at(const MethodTuning& method, MethodOnCase& found, double position,
-                                       bool on_grid) {
-    Parameters parameters = fixed_parameters(*method.info);
+                                       bool on_grid, bool holes) {
+    Parameters parameters = fixed_parameters(method, holes);
     parameters[method.axis->parameter] = value_at(*method.axis, position, spacing_);
-    found.sweep.push_back({position, on_grid, evaluate(method, parameters)});
+    found.sweep.push_back({position, on_grid, holes, evaluate(method, parameters)});
     return found.sweep.back().evaluation;
   }
 
-  /// The positions of a round, but those after too many time-outs in a row.
+  /// The positions of a round, but those after too many time-outs in a row; of a training case.
   void sweep(const MethodTuning& method, MethodOnCase& found, const std::vector<double>& positions) {
-    if (!can_be_searched(method)) return;
-    int timeouts = 0;
-    for (const double position : positions) {
-      const record::RunRecord& evaluation = evaluate_at(method, found, position, true);
-      timeouts = evaluation.status == record::Status::kTimeout ? timeouts + 1 : 0;
-      if (timeouts == kMostTimeouts) return;
+    if (!can_be_searched(method) || !can_match(method)) return;
+    for (const bool holes : choices_of_holes(*method.info)) {
+      int timeouts = 0;
+      for (const double position : positions) {
+        const record::RunRecord& evaluation = evaluate_at(method, found, position, true, holes);
+        timeouts = evaluation.status == record::Status::kTimeout ? timeouts + 1 : 0;
+        if (timeouts == kMostTimeouts) break;
+      }
     }
   }
 
@@ -226,14 +235,17 @@ class TuningThread {
     if (!named && has_defaults(*method.info))
       found.protocols.emplace("default", evaluate(method, fixed_parameters(*method.info)));
     if (!can_be_searched(method)) return;
-    const auto points = search(*method.axis, [&](double position) {
-      const record::RunRecord& evaluation = evaluate_at(method, found, position, false);
-      return Trial{error_of(evaluation), evaluation.status == record::Status::kTimeout};
-    });
-    for (std::size_t i = 0; i < points.size(); ++i) found.sweep[i].on_grid = points[i].on_grid;
+    for (const bool holes : choices_of_holes(*method.info)) {
+      const std::size_t first = found.sweep.size();
+      const auto points = search(*method.axis, [&](double position) {
+        const record::RunRecord& evaluation = evaluate_at(method, found, position, false, holes);
+        return Trial{error_of(evaluation), evaluation.status == record::Status::kTimeout};
+      });
+      for (std::size_t i = 0; i < points.size(); ++i) found.sweep[first + i].on_grid = points[i].on_grid;
+    }
     const auto tuned = choose_tuned(method);
-    if (tuned && evaluation_at(found, tuned->position) == nullptr)
-      evaluate_at(method, found, tuned->position, false);
+    if (tuned && evaluation_at(found, tuned->position, tuned->holes) == nullptr)
+      evaluate_at(method, found, tuned->position, false, tuned->holes);
   }
 
   /// The case's, or more where the plan gives the method more.
@@ -291,7 +303,11 @@ std::vector<MethodTuning> describe_methods(const TunerOptions& options, std::siz
     method.info = session->info();
     if (method.info) {
       method.title = method.info->title;
-      if (!options.not_searched.contains(method.name)) method.axis = search_axis(*method.info);
+      const auto searched = options.searched.find(method.name);
+      const bool is_said = searched != options.searched.end();
+      if (!options.not_searched.contains(method.name))
+        method.axis = search_axis(*method.info, is_said ? searched->second.parameter : "");
+      if (method.axis && is_said) method.others = searched->second.others;
       method.cases.resize(cases);
     } else {
       method.detail = session->start_reply().detail;
@@ -315,6 +331,12 @@ void add_entries(TuningCase& one, const plan::Plan& plan) {
 
 }  // namespace
 
+Parameters fixed_parameters(const MethodTuning& method, bool holes) {
+  Parameters fixed = fixed_parameters(*method.info, holes);
+  fixed.insert(method.others.begin(), method.others.end());
+  return fixed;
+}
+
 double error_of(const record::RunRecord& evaluation) {
   return evaluation.metrics.value("l2", kInfinitelyBad);
 }
@@ -329,14 +351,16 @@ const record::RunRecord* best_evaluation(const MethodOnCase& found) {
   return best;
 }
 
-const record::RunRecord* evaluation_at(const MethodOnCase& found, double position) {
-  const auto same = [&](const SweepEvaluation& one) { return one.position == position; };
+const record::RunRecord* evaluation_at(const MethodOnCase& found, double position, bool holes) {
+  const auto same = [&](const SweepEvaluation& one) {
+    return one.position == position && one.holes == holes;
+  };
   const auto place = std::ranges::find_if(found.sweep, same);
   return place == found.sweep.end() ? nullptr : &place->evaluation;
 }
 
-double error_at(const MethodOnCase& found, double position) {
-  const record::RunRecord* evaluation = evaluation_at(found, position);
+double error_at(const MethodOnCase& found, double position, bool holes) {
+  const record::RunRecord* evaluation = evaluation_at(found, position, holes);
   return evaluation == nullptr ? kInfinitelyBad : error_of(*evaluation);
 }
 

@@ -39,6 +39,7 @@ struct TuningCase {
 struct SweepEvaluation {
   double position = 0;
   bool on_grid = false;  ///< of the sweep, whose positions are those of a grid; else of the refinement
+  bool holes = true;     ///< what the method's switches for holes were set to (fixed_parameters)
   record::RunRecord evaluation;
 };
 
@@ -55,17 +56,18 @@ double error_of(const record::RunRecord& evaluation);
 /// protocols. Of failures alone the first; null when there is no evaluation at all.
 const record::RunRecord* best_evaluation(const MethodOnCase& found);
 
-/// The evaluation of the sweep at that position; null when it was not evaluated.
-const record::RunRecord* evaluation_at(const MethodOnCase& found, double position);
+/// The evaluation of the sweep at that position, with holes or without; null when it was not evaluated.
+const record::RunRecord* evaluation_at(const MethodOnCase& found, double position, bool holes = true);
 
 /// The error there. A position that a search did not come to, given up after time-outs, is a failure.
-double error_at(const MethodOnCase& found, double position);
+double error_at(const MethodOnCase& found, double position, bool holes = true);
 
 /// What successive halving (halving.hpp) knew when a round was over.
 struct HalvingRound {
-  std::size_t cases = 0;          ///< training cases that were taken by then
+  std::size_t cases = 0;          ///< training cases on which the method had been tried by then
   std::vector<double> positions;  ///< that were still tried, ascending
   std::vector<double> scores;     ///< position -> weighted median of l2 over these cases; kInfinitelyBad
+  std::vector<double> scores_without_holes;  ///< the same with holes switched off; empty: there is no switch
 };
 
 /// One method.
@@ -76,9 +78,13 @@ struct MethodTuning {
   std::string detail;                ///< why it does not start
   std::string remedy;                ///< the command that helps
   std::optional<SearchAxis> axis;    ///< none: it has no parameter to search, or the plan wants none searched
+  Parameters others = {};            ///< that are neither searched nor switches for holes, and not left out
   std::vector<MethodOnCase> cases;   ///< by case; empty when it does not start
   std::vector<HalvingRound> rounds;  ///< none without an axis or a training case
 };
+
+/// What is given besides the searched parameter, with holes or without.
+Parameters fixed_parameters(const MethodTuning& method, bool holes = true);
 
 struct Tuning {
   std::vector<TuningCase> cases;

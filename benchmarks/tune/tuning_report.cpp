@@ -67,20 +67,28 @@ json score_to_json(const ProtocolScore& score) {
           {"regret_interval", interval_to_json(score.regret_interval)}};
 }
 
-json tuned_to_json(const std::optional<TunedValue>& tuned) {
+json tuned_to_json(const MethodTuning& method, const std::optional<TunedValue>& tuned) {
   if (!tuned) return nullptr;
   return {{"position", tuned->position},
           {"training_median", tuned->training_median},
           {"training_cases", tuned->training_cases},
+          {"fixed", record::parameters_to_json(fixed_parameters(method, tuned->holes))},
           {"at_end", tuned->at_end}};
+}
+
+json scores_to_json(const std::vector<double>& scores) {
+  json result = json::array();
+  for (const double score : scores) result.push_back(error_to_json(score));
+  return result;
 }
 
 json rounds_to_json(const MethodTuning& method) {
   json rounds = json::array();
   for (const HalvingRound& round : method.rounds) {
-    json scores = json::array();
-    for (const double score : round.scores) scores.push_back(error_to_json(score));
-    rounds.push_back({{"cases", round.cases}, {"positions", round.positions}, {"scores", std::move(scores)}});
+    json& one = rounds.emplace_back(json{
+        {"cases", round.cases}, {"positions", round.positions}, {"scores", scores_to_json(round.scores)}});
+    if (!round.scores_without_holes.empty())
+      one["scores_without_holes"] = scores_to_json(round.scores_without_holes);
   }
   return rounds;
 }
@@ -154,7 +162,7 @@ json method_to_json(const Tuning& tuning, const MethodTuning& method) {
       {"detail", method.detail},
       {"remedy", method.remedy},
       {"axis", axis_to_json(method.axis)},
-      {"fixed", method.info ? record::parameters_to_json(fixed_parameters(*method.info)) : json::object()},
+      {"fixed", method.info ? record::parameters_to_json(fixed_parameters(method)) : json::object()},
       {"tuned", nullptr},
       {"rounds", json::array()},
       {"tolerance_octaves", nullptr},
@@ -164,7 +172,7 @@ json method_to_json(const Tuning& tuning, const MethodTuning& method) {
       {"oracle", json::array()}};
   if (!method.info) return result;
   const auto tuned = choose_tuned(method);
-  result["tuned"] = tuned_to_json(tuned);
+  result["tuned"] = tuned_to_json(method, tuned);
   result["rounds"] = rounds_to_json(method);
   result["tolerance_octaves"] = tolerance_to_json(tuning, method);
   for (const ProtocolScore& score : protocol_scores(tuning, method, tuned))
@@ -299,7 +307,7 @@ json protocols_of(const MethodTuning& method, const TuningCase& one, const Metho
     if (evaluation.id == id) protocols.push_back(protocol);
   }
   const record::RunRecord* chosen =
-      tuned && one.side() == Side::kTest ? evaluation_at(found, tuned->position) : nullptr;
+      tuned && one.side() == Side::kTest ? evaluation_at(found, tuned->position, tuned->holes) : nullptr;
   if (chosen != nullptr && chosen->id == id) protocols.push_back("tuned");
   const record::RunRecord* best = one.side() == Side::kTest ? best_evaluation(found) : nullptr;
   if (method.axis && best != nullptr && best->id == id) protocols.push_back("oracle");

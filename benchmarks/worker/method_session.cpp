@@ -50,11 +50,14 @@ record::PhaseTimes read_phases(const json& body, std::initializer_list<const cha
   return phases;
 }
 
-/// Whether the last kSteadyRuns of `times` agree.
-bool ends_steadily(const std::vector<std::int64_t>& times) {
-  if (times.size() < kSteadyRuns) return false;
-  const auto [least, most] = std::minmax_element(times.end() - kSteadyRuns, times.end());
-  return static_cast<double>(*most) <= (1 + kSteadySpread) * static_cast<double>(*least);
+/// Whether the last runs are hardly faster than those before them.
+bool is_warm(const std::vector<std::int64_t>& times) {
+  static_assert(kWarmUpRuns >= 2 * kSteadyRuns);
+  if (times.size() < kWarmUpRuns) return false;
+  const auto last = times.end() - kSteadyRuns;
+  const auto best = static_cast<double>(*std::min_element(last, times.end()));
+  const auto best_before = static_cast<double>(*std::min_element(last - kSteadyRuns, last));
+  return best >= (1 - kSteadyGain) * best_before;
 }
 
 }  // namespace
@@ -193,7 +196,7 @@ Attempt MethodSession::warm_up(const LoadedPoints& points, const Parameters& par
   Attempt first = run(points, parameters, scratch, timeout);
   if (first.status != record::Status::kOk) return first;
   std::vector<std::int64_t> times = {first.time_ns()};
-  while (!ends_steadily(times) && std::chrono::steady_clock::now() < end) {
+  while (!is_warm(times) && std::chrono::steady_clock::now() < end) {
     Attempt next = run(points, parameters, scratch, timeout);
     if (next.status != record::Status::kOk) return next;
     times.push_back(next.time_ns());

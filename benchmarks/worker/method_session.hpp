@@ -21,11 +21,13 @@ namespace hullbench::worker {
 /// How long a worker may take to say who it is; a method may have to start a server.
 inline constexpr std::chrono::seconds kStartTimeout{60};
 
-/// A method that compiles while it runs is warm when this many runs one after another agree: the longest
-/// takes at most this part more than the shortest. It gets no more than this time for that.
-inline constexpr std::size_t kSteadyRuns = 3;
-inline constexpr double kSteadySpread = 0.05;
-inline constexpr std::chrono::seconds kWarmUpTime{5};
+/// A method that compiles while it runs is warm after so many runs at least, when the best of the last ones
+/// is less than this part below the best of as many before them. It gets no more than this time for that.
+/// Compilers count calls and have several stages: Java's times stay the same for some runs, and then halve.
+inline constexpr std::size_t kWarmUpRuns = 100;
+inline constexpr std::size_t kSteadyRuns = 25;
+inline constexpr double kSteadyGain = 0.03;
+inline constexpr std::chrono::seconds kWarmUpTime{8};
 
 /// The largest result that is read, in bytes: far above any polygon of the points that fit the memory limit.
 inline constexpr std::size_t kMaxResultBytes = std::size_t{1} << 30;
@@ -87,7 +89,7 @@ class MethodSession {
   /// Whether the method compiles while it runs (Method::jit) and its process, of now or to come, was not
   /// warmed up.
   bool is_cold() const { return method_.jit && (!warmed_up_ || !worker_ || !worker_->alive()); }
-  /// Runs the method until its times are steady, or for kWarmUpTime. Returns the first run, whose time is
+  /// Runs the method until it gets no faster, or for kWarmUpTime. Returns the first run, whose time is
   /// that of a cold process, or the first one that failed, which ends it. Throws Interrupted.
   Attempt warm_up(const LoadedPoints& points, const Parameters& parameters, const fs::path& scratch,
                   std::chrono::milliseconds timeout);
