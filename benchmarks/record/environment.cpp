@@ -167,7 +167,8 @@ std::string flags_statement(const BuildInfo& info) {
          "same compiler and flags" +
          (differences.empty() ? std::string(", without exception.")
                               : ", except: " + differences.substr(2) + ".") +
-         (asked_by_cgal ? " CGAL's own package adds -frounding-math to whatever uses it." : "");
+         (asked_by_cgal ? " CGAL's own package adds -frounding-math to whatever uses it." : "") +
+         " The core chooses its loops for AVX2 or AVX-512 at run time.";
 }
 
 json compiler() {
