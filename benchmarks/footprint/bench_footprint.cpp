@@ -209,6 +209,8 @@ class Comparison {
       add("polylidar footprint, from the disk", all, [this] { return footprint({}); });
       ways_.back().is_from_disk = true;
     }
+    // The others have one thread.
+    add("polylidar footprint --threads 1", all, [this] { return footprint({"--threads", "1"}); });
     add("polylidar footprint --alpha " + three_digits(alpha), all, [this, alpha] {
       return footprint({"--alpha", polylidar::tool::shortest(alpha)});
     });
