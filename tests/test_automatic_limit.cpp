@@ -581,6 +581,20 @@ TEST(AutomaticLimit, LeavesManyOutliersOut) {
   }
 }
 
+// With so many, A(s) is stable again where nearly all triangles between outliers are kept. A limit so large
+// is not taken.
+TEST(AutomaticLimit, LeavesManyOutliersOutThatLieClose) {
+  for (const std::size_t outliers : {2400U, 3000U, 3600U}) {
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+      std::vector<Point> points = testing::uniform_points(12000, seed);
+      for (const Point& p : testing::uniform_points(outliers, seed + 100))
+        points.push_back({1.7 * p.x - 0.35, 1.7 * p.y - 0.35});
+      points.push_back(points[seed]);  // the sample of the triangles is another one by that
+      EXPECT_LT(area(checked_hull(points)), 1.15) << outliers << " outliers, seed " << seed;
+    }
+  }
+}
+
 // A step over records would keep step with the copies: it would look at all triangles, or at few.
 TEST(AutomaticLimit, LeavesManyOutliersOutHoweverOftenPointsAreRepeated) {
   for (std::uint64_t seed = 0; seed < 3; ++seed) {

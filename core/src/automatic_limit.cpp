@@ -225,7 +225,7 @@ void AutomaticLimit::choose_found(const DelaunayBuilder& builder, const std::uin
   areas_.sum_up();
   areas_.add_wide(builder.mesh(), builder.vertices(), is_tested, field_, sizes_.usual4(), wide_radius_,
                   points_, pool);
-  set_field(points_, detail, constants);
+  set_field(points_, detail, constants, kNoLimit);
 }
 
 void AutomaticLimit::choose_by_blocks(const DelaunayBuilder& builder, double detail, ThreadPool& pool,
@@ -238,9 +238,14 @@ void AutomaticLimit::choose_by_blocks(const DelaunayBuilder& builder, double det
   blocks_.measure(sized, field_.block_of_vertex, constants.quantile, pool, sizes_);
   sizes_.smooth(constants);
   const Spacings spacings = look_around_some(sized);
+  constexpr double kMostInSpacings = 1.1;  // a limit, in the least ones of outliers: a larger one joins them
+  double most4 = kNoLimit;
   if (blocks_.count() > 1) {
     const std::optional<double> spacing4 = spacing4_of_outliers(sized, spacings, constants.valley);
-    if (spacing4) sizes_.level_above(*spacing4);
+    if (spacing4) {
+      const double level4 = sizes_.level_above(*spacing4);
+      if (level4 < UsualSizes::kUnknown) most4 = fourth_power(kMostInSpacings) * *spacing4 / level4;
+    }
   }
   sizes_.bound_growth(blocks_.count(), constants);
   sizes_.shrink_to_median(constants.noise);
@@ -250,7 +255,7 @@ void AutomaticLimit::choose_by_blocks(const DelaunayBuilder& builder, double det
     doubt_ = 1 + constants.doubt * excess_scatter(sized, spacings, field_.block_of_vertex, sizes_.usual4(),
                                                   points, constants);
   }
-  set_field(points, detail, constants);
+  set_field(points, detail, constants, most4);
   look_for_outlines(sized, points, detail, constants.step);
 }
 
@@ -287,8 +292,10 @@ void AutomaticLimit::look_for_outlines(const SizedMesh& sized, double points, do
       OutlineSteps{*squared_step, *squared_step * std::max(1.0, 1 / (detail * detail)), twice_area};
 }
 
-/// From the usual sizes and the areas. `points`: how many are no repeats.
-void AutomaticLimit::set_field(double points, double detail, const AutomaticConstants& constants) {
+/// From the usual sizes and the areas. `points`: how many are no repeats; `most4`: of the limit, in usual
+/// sizes.
+void AutomaticLimit::set_field(double points, double detail, const AutomaticConstants& constants,
+                               double most4) {
   range_.reset();
   field_.limit4 = sizes_.usual4();
   field_.spike_share = 1;
@@ -298,7 +305,7 @@ void AutomaticLimit::set_field(double points, double detail, const AutomaticCons
   field_.wide_radius = 0;
   field_.outlines.reset();
   if (areas_.is_empty()) return;  // no triangle
-  const double limit4 = steadiest4_ = areas_.steadiest_size4(points, doubt_, constants);
+  const double limit4 = steadiest4_ = std::min(areas_.steadiest_size4(points, doubt_, constants), most4);
   field_.spike_share = fourth_power(constants.spike) / limit4;
   field_.least_part = static_cast<std::size_t>(constants.part * std::log(points));
   field_.wide_square = least_wide_square(points, constants.wide, kPointsPerBorderSquare) / (detail * detail);

@@ -98,7 +98,7 @@ class AutomaticLimit {
   void take_sample_of_places();
   SizedMesh measure_triangles(const DelaunayBuilder& builder, ThreadPool& pool);
   void look_for_outlines(const SizedMesh& sized, double points, double detail, double step);
-  void set_field(double points, double detail, const AutomaticConstants& constants);
+  void set_field(double points, double detail, const AutomaticConstants& constants, double most4);
 
   WindowSample windows_;
   MeshBlocks blocks_;

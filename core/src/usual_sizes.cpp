@@ -58,15 +58,16 @@ void UsualSizes::smooth(const AutomaticConstants& constants) {
   for (std::size_t b = 0; b < usual4_.size(); ++b) usual4_[b] *= std::exp(4 * (1 - kept) * logs_[b]);
 }
 
-void UsualSizes::level_above(double size4) {
+double UsualSizes::level_above(double size4) {
   scratch_.clear();
   std::copy_if(usual4_.begin(), usual4_.end(), std::back_inserter(scratch_),
                [&](double usual4) { return usual4 <= size4; });
-  if (scratch_.empty()) return;
+  if (scratch_.empty()) return kUnknown;
   const double most4 = quantile_of(scratch_, 0.5);
   for (double& usual4 : usual4_) {
     if (usual4 < kUnknown) usual4 = std::min(usual4, most4);
   }
+  return most4;
 }
 
 void UsualSizes::bound_growth(std::size_t blocks, const AutomaticConstants& constants) {

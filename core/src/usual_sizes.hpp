@@ -51,8 +51,9 @@ class UsualSizes {
   /// Gives each block the median of its own usual size and those of its neighbours, as far as they are known.
   /// Among scan lines a window may lie where two lines nearly meet.
   void take_medians_of_neighbours();
-  /// No block may be larger than the median of the blocks up to this size.
-  void level_above(double size4);
+  /// No block may be larger than the median of the blocks up to this size. Returns it; kUnknown if there is
+  /// no such block, and nothing changes.
+  double level_above(double size4);
   /// No block may be larger than the second smallest of its neighbours allows, nor that one than its own. The
   /// smallest may hold a bit of a dense place beside it. The growth is that of so many blocks.
   void bound_growth(std::size_t blocks, const AutomaticConstants& constants);
