@@ -282,12 +282,17 @@ TEST_F(TuneTest, WhatAutoChoosesIsSearchedBesideItsNumbers) {
       json::array({{{"method", "two"},
                     {"protocol", "auto"},
                     {"parameters", {{"power", 0}, {"radius", {{"rule", "auto_edge_length"}}}}}}});
-  succeeded(tune(write(source), "two", "out"));
+  source["methods"].push_back({{"method", "polylidar"},
+                               {"protocol", "auto"},
+                               {"parameters", {{"alpha", {{"rule", "auto_circumradius"}}}}}});
+  succeeded(tune(write(source), "two|polylidar", "out"));
   const json found = method_of(summary("out"), "two");
   EXPECT_EQ(found.at("axis").at("parameter"), "radius");
   EXPECT_EQ(found.at("fixed"), (json{{"power", 0}}));
   EXPECT_LT(found.at("tuned").at("training_median"), 0.9);
   for (const json& choice : found.at("oracle")) EXPECT_EQ(choice.at("parameters").at("power"), 0);
+  EXPECT_EQ(method_of(summary("out"), "polylidar").at("axis").at("parameter"), "max_perimeter")
+      << "there are no numbers, so it is the usual axis";
 }
 
 TEST_F(TuneTest, FailuresAreEvaluationsAndInfinitelyBad) {

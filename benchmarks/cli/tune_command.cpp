@@ -118,7 +118,8 @@ void read_other_sweeps(const fs::path& folder, const std::string& own, run::RowS
   for (const fs::path& file : others) store.read_rows(file);
 }
 
-/// What `auto` chooses by a rule is what is searched, beside the same numbers; none of other protocols.
+/// Where `auto` has numbers beside its rule: the parameter with the rule, which is then searched beside the
+/// same numbers. Else none.
 std::optional<tune::Searched> searched_of(const plan::PlanMethod& entry) {
   if (entry.protocol != "auto") return std::nullopt;
   tune::Searched searched;
@@ -128,7 +129,9 @@ std::optional<tune::Searched> searched_of(const plan::PlanMethod& entry) {
     if (number != nullptr && !is_of_holes) searched.others[name] = *number;
     if (std::holds_alternative<plan::RuleChoice>(choice)) searched.parameter = name;
   }
-  return searched.parameter.empty() ? std::nullopt : std::optional(searched);
+  // Without such numbers the usual axis is no worse: of a perimeter and a circumradius it is the perimeter.
+  const bool is_usual = searched.parameter.empty() || searched.others.empty();
+  return is_usual ? std::nullopt : std::optional(searched);
 }
 
 tune::TunerOptions tuner_options(const TuneCommand& command, const run::MethodCatalog& catalog,

@@ -15,7 +15,7 @@
 
 namespace hullbench::tune {
 
-/// What is searched of a method, as its entry under `auto` has it.
+/// What is searched of a method whose entry under `auto` has numbers beside the rule.
 struct Searched {
   std::string parameter;   ///< that has a rule there
   Parameters others = {};  ///< that have numbers there, but switches
