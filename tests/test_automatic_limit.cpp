@@ -636,6 +636,31 @@ TEST(AutomaticLimit, SeesOutliersByTheirDensity) {
   EXPECT_FALSE(shows_outliers(testing::lattice(50, 50)));
 }
 
+/// An L whose arms are 0.3 wide, sparse but for a dense disc in its corner.
+std::vector<Point> town_in_the_corner(std::size_t dense, std::size_t sparse, std::uint64_t seed) {
+  std::vector<Point> points;
+  for (const Point& p : testing::uniform_points(3 * sparse, seed)) {
+    if (points.size() < sparse && std::min(p.x, p.y) < 0.3) points.push_back(p);
+  }
+  for (const Point& p : testing::uniform_points(dense, seed + 100)) {
+    const double radius = 0.1 * std::sqrt(p.x);
+    const double angle = 6.283185307179586 * p.y;
+    points.push_back({0.15 + radius * std::cos(angle), 0.15 + radius * std::sin(angle)});
+  }
+  return points;
+}
+
+// The sparse part surrounds the dense one, as outliers do, but it leaves empty what is outside the shape.
+TEST(AutomaticLimit, TakesNoSparsePartForOutliers) {
+  for (const std::size_t count : {250U, 1000U, 4000U}) {
+    for (std::uint64_t seed = 0; seed < 5; ++seed) {
+      const std::vector<Point> points = town_in_the_corner(3 * count, count, seed);
+      EXPECT_FALSE(shows_outliers(points)) << count << ", " << seed;
+      EXPECT_GT(area(checked_hull(points)), 0.2) << count << ", " << seed;  // of 0.51; the disc has 0.03
+    }
+  }
+}
+
 // Nearly half of the points are no outliers, and of few outliers the bound on growth takes care.
 TEST(AutomaticLimit, OutliersAreNeitherTooManyNorTooFew) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {

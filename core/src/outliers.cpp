@@ -118,6 +118,29 @@ bool are_on_hull(const SizedMesh& sized, double spacing4) {
   return on_hull > 0 && 10 * sparse >= 9 * on_hull;
 }
 
+/// Whether points with at least this spacing are spread over the whole convex hull, as points at random are:
+/// triangles much larger than their median spacing hold little of it. A sparse part of the shape leaves empty
+/// what is outside the shape.
+bool fill_hull(const SizedMesh& sized, const Spacings& spacings, double spacing4) {
+  constexpr double kLarge = 2.5;       // median spacings
+  constexpr double kMostShare = 0.16;  // of the convex hull's area
+  std::vector<double> beyond4;
+  for (const Around& around : spacings.around) {
+    if (around.spacing4 >= spacing4 && std::isfinite(around.spacing4)) beyond4.push_back(around.spacing4);
+  }
+  if (beyond4.empty()) return false;
+  const double large4 = fourth_power(kLarge) * quantile_of(beyond4, 0.5);
+  double hull = 0;
+  double in_large = 0;
+  for (Mesh::Index t = 0; t < sized.mesh.triangle_count(); ++t) {
+    if (sized.mesh.is_ghost(t)) continue;
+    const double twice_area = sized.triangle(t).twice_area();
+    hull += twice_area;
+    if (sized.size4_of(t) > large4) in_large += twice_area;
+  }
+  return in_large <= kMostShare * hull;
+}
+
 }  // namespace
 
 std::optional<double> spacing4_of_outliers(const SizedMesh& sized, const Spacings& spacings,
@@ -146,6 +169,7 @@ std::optional<double> spacing4_of_outliers(const SizedMesh& sized, const Spacing
   if (valley.sureness < sureness) return {};
   const double spacing4 = Histogram::begin4(valley.cell) * unit4;
   if (are_on_lines(spacings, spacing4) || !are_on_hull(sized, spacing4)) return {};
+  if (!fill_hull(sized, spacings, spacing4)) return {};
   return spacing4;
 }
 

@@ -17,8 +17,10 @@ namespace polylidar::detail {
 /// - 3 to 30 % of the points must lie beyond it;
 /// - those beyond must be about as far from their nearest neighbours as points at random. The rings of a
 ///   rotating lidar have valleys between them, too, but along a ring points are close;
-/// - nine tenths of the points on the convex hull must lie beyond it. A sparse part of the shape does not
-///   surround the rest.
+/// - nine tenths of the points on the convex hull must lie beyond it. A sparse part of the shape rarely
+///   surrounds the rest;
+/// - those beyond must be spread over the whole convex hull. Where a shape has one dense place, as a country
+///   has round its largest town, its sparse points leave the outside empty.
 ///
 /// Source: this project; core/AUTOMATIC.md, "The rule".
 std::optional<double> spacing4_of_outliers(const SizedMesh& sized, const Spacings& spacings, double sureness);
