@@ -155,10 +155,12 @@ TEST(RealPoints, AreThoseOfTheInstalledPackages) {
   for (const real::Source& source : real::sources()) {
     if (!real::installed_version(source.package, "/")) continue;
     SCOPED_TRACE(source.name);
-    packages.insert(source.package);
+    const bool is_first_of_package = packages.insert(source.package).second;
     const PointSet set = make_point_set(source.name, false, 0, 1);
     EXPECT_GE(set.points.size(), 30U);
-    EXPECT_EQ(set.sha256, make_point_set(source.name, false, 0, 2).sha256);
+    if (is_first_of_package) {
+      EXPECT_EQ(set.sha256, make_point_set(source.name, false, 0, 2).sha256) << "no seed draws anything";
+    }
     EXPECT_TRUE(set.ground_truth.empty());
     EXPECT_EQ(set.window.empty(), source.package != "r-cran-spatstat.data");
     std::set<double> heights;

@@ -79,11 +79,15 @@ export async function axe_findings(page, rules = WCAG, keep = () => true) {
   return violations.filter(keep).map(({ id, nodes }) => `${id}: ${places(nodes).join(" | ")}`);
 }
 
-/** Nothing is wider than the window, and axe finds nothing; keeps a screenshot in OUTPUT. */
-export async function assert_readable(page, screenshot) {
-  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), page.viewportSize().width);
+/** Nothing is wider than the window, here nor at `other_width`, and axe finds nothing; keeps a screenshot in OUTPUT. */
+export async function assert_readable(page, screenshot, other_width) {
+  const assert_fits = async () =>
+    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), page.viewportSize().width);
+  await assert_fits();
   await page.screenshot({ path: output(`${screenshot}.png`), fullPage: true });
   assert.deepEqual(await axe_findings(page), []);
+  await page.setViewportSize({ width: other_width, height: 900 });
+  await assert_fits();
 }
 
 export function assert_ascending(values) {

@@ -473,32 +473,32 @@ for (const theme of ["light", "dark"]) {
     await open_case(page, HAWAII, `postgis/${HAWAII}/protocol:auto`);
     assert.deepEqual(await findings(), []);
   });
+}
 
-  for (const [width, height] of [
-    [1280, 900],
-    [390, 844],
-  ]) {
-    const options = { width, height, theme, deviceScaleFactor: width < 500 ? 2 : 1 };
-    page_test(`screenshots, ${width} pixels, ${theme}`, options, async (page) => {
-      const shoot = async (name, more = {}) => {
-        const path = output(`${name}-${width}-${theme}.png`);
-        await page.screenshot({ path, ...more });
-        assert.ok(statSync(path).size > 10000, `${path} is nearly empty`);
-      };
-      assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), theme);
-      for (const section of ["gallery", "runs"]) await page.locator(`#${section}`).scrollIntoViewIfNeeded();
-      await page.locator("#runs-table tbody tr").first().waitFor();
-      await page.locator("#gallery").evaluate((one) => one.scrollIntoView());
-      await page.locator(".gallery-card canvas.painted").first().waitFor();
-      await page.waitForTimeout(300);
-      await shoot("gallery");
-      await page.evaluate(() => scrollTo(0, 0));
-      await page.waitForTimeout(300);
-      await shoot("page", { fullPage: true });
-      await open_case(page, CALIFORNIA, `postgis/${CALIFORNIA}/protocol:auto`);
-      await shoot("case");
-    });
-  }
+for (const [width, height, theme] of [
+  [1280, 900, "light"],
+  [390, 844, "dark"],
+]) {
+  const options = { width, height, theme, deviceScaleFactor: width < 500 ? 2 : 1 };
+  page_test(`screenshots, ${width} pixels, ${theme}`, options, async (page) => {
+    const shoot = async (name, more = {}) => {
+      const path = output(`${name}-${width}-${theme}.png`);
+      await page.screenshot({ path, ...more });
+      assert.ok(statSync(path).size > 10000, `${path} is nearly empty`);
+    };
+    assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), theme);
+    for (const section of ["gallery", "runs"]) await page.locator(`#${section}`).scrollIntoViewIfNeeded();
+    await page.locator("#runs-table tbody tr").first().waitFor();
+    await page.locator("#gallery").evaluate((one) => one.scrollIntoView());
+    await page.locator(".gallery-card canvas.painted").first().waitFor();
+    await page.waitForTimeout(300);
+    await shoot("gallery");
+    await page.evaluate(() => scrollTo(0, 0));
+    await page.waitForTimeout(300);
+    await shoot("page", { fullPage: true });
+    await open_case(page, CALIFORNIA, `postgis/${CALIFORNIA}/protocol:auto`);
+    await shoot("case");
+  });
 }
 
 page_test("paper is light, without controls; an open case is printed alone", { theme: "dark" }, async (page) => {
