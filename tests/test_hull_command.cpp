@@ -272,6 +272,36 @@ TEST_F(HullCommandTest, OutIsWrittenWholeOrNotAtAll) {
   }
 }
 
+TEST_F(HullCommandTest, AReplacedFileKeepsItsMode) {
+  const std::string out = file("private.geojson", "old");
+  fs::permissions(out, fs::perms::owner_read | fs::perms::owner_write);
+  succeeded(hull({points_file(), "--out", out}));
+  EXPECT_TRUE(read_text(out).starts_with("{"));
+  EXPECT_EQ(fs::status(out).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  fs::permissions(out, fs::perms::owner_read);
+  ProgramOptions options;
+  options.obey_permissions = true;
+  expect_refusal(run_program({POLYLIDAR, "hull", points_file(), "--out", out}, options), 1,
+                 "cannot write " + out + ": Permission denied");
+}
+
+TEST_F(HullCommandTest, ALinkToNothingBecomesTheLinkOfAFile) {
+  fs::create_symlink("there.wkt", folder() / "link.wkt");
+  succeeded(hull({points_file(), "--out", (folder() / "link.wkt").string()}));
+  EXPECT_TRUE(fs::is_symlink(folder() / "link.wkt"));
+  EXPECT_TRUE(read_text(folder() / "there.wkt").starts_with("MULTIPOLYGON"));
+}
+
+TEST_F(HullCommandTest, TheEndingSaysTheFormatOrNothing) {
+  EXPECT_EQ(hull({points_file(), "--out", "-"}).out, hull({points_file()}).out);
+  for (const std::string name : {"hull.geojson.gz", "hull.topojson"}) {
+    const std::string out = (folder() / name).string();
+    expect_refusal(hull({points_file(), "--out", out}), 2,
+                   "names no format; name it .geojson, .wkt, .wkb or .svg");
+    EXPECT_EQ(hull({points_file(), "--format", "wkt", "--out", out}).code, 0);
+  }
+}
+
 TEST_F(HullCommandTest, OutputThatCannotBeWritten) {
   expect_refusal(hull({points_file(), "--alpha", "1", "--out", "/nowhere/hull.json"}), 1,
                  "cannot write /nowhere/hull.json");
@@ -346,6 +376,10 @@ TEST_F(HullCommandTest, UsageErrors) {
     expect_refusal(hull({points, cleaning, "1", "--cover"}), 2, "--cover excludes " + cleaning);
   }
   expect_refusal(hull({points, "--one", "--min-triangles", "9"}), 2, "--one excludes --min-triangles");
+  expect_refusal(hull({points, "--memory", "9"}), 2, "--memory is for what --stream reads");
+  for (const std::string option : {"--out", "--by", "--columns", "--crs", "--window"}) {
+    expect_refusal(hull({points, option, ""}), 2, option + " is empty; give it a value, or leave it out");
+  }
 }
 
 TEST_F(HullCommandTest, WhatWorksOnShapesNeedsUsualCoordinates) {
@@ -469,8 +503,8 @@ TEST_F(HullCommandTest, LabelsThatAreNumbersAreNumbers) {
   EXPECT_EQ(labels("1,2,10\n1,2,007\n"), (json{"007", "10"}));
   EXPECT_EQ(labels("1,2,10\n1,2,nan\n1,2,9\n"), (json{"9", "10", "nan"}));
   EXPECT_EQ(labels("x,y,z\n"), json::array());
-  const std::string odd = hull({file("odd.csv", "1,2,\xFF\n"), "--by", "3"}).out;
-  EXPECT_EQ("\xEF\xBF\xBD", json::parse(odd)["features"][0]["properties"]["label"].get<std::string>());
+  expect_refusal(hull({file("odd.csv", "1,2,\xFF\n"), "--by", "3"}), 2,
+                 "--by is not UTF-8; convert the file");
 }
 
 TEST_F(HullCommandTest, WhatIsLeftOutsideIsKept) {
@@ -492,6 +526,12 @@ TEST_F(HullCommandTest, OneAndMaxParts) {
   EXPECT_EQ(shape({"--alpha", "0.3", "--one"}).size(), 1U);
   EXPECT_EQ(shape({"--alpha", "0.3", "--max-parts", "1"}), MultiPolygon{expected(0.3)[0]});
   EXPECT_EQ(json::parse(hull({points_file(), "--alpha", "0.3", "--one"}).out)["properties"]["parts"], 1);
+  // A limit that keeps no triangle is widened, too.
+  EXPECT_EQ(shape({"--alpha", "0.0001", "--one"}).size(), 1U);
+  const Outcome chosen = succeeded(hull({points_file(), "--detail", "30", "--one"}));
+  EXPECT_EQ(json::parse(chosen.out)["properties"]["parts"], 1);
+  expect_says(chosen.err, "chosen from the points and widened as far as --one needs");
+  expect_says(hull({points_file(), "--one", "--cover"}).err, "widened as far as --one and --cover need");
 }
 
 TEST_F(HullCommandTest, DegreesAreTakenAsMetres) {
@@ -521,6 +561,24 @@ TEST_F(HullCommandTest, DegreesAreTakenAsMetres) {
       hull({file("far.geojson", geojson_multipoint({{500, 1}, {501, 1}, {500, 2}}))}).err.find("metres"),
       std::string::npos)
       << "no longitude is 500";
+}
+
+TEST_F(HullCommandTest, CoordinatesThatAreNoDegreesAreTold) {
+  const std::string rows = "lon,lat\n10,50\n11,50\n10,51\n-9999,-9999\n";
+  const std::string table = file("nodata.csv", rows);
+  expect_refusal(hull({table}), 2, "but x is from -9999 to 11 and y from -9999 to 51; leave out");
+  expect_refusal(hull({file("xy.csv", rows.substr(8)), "--crs", "EPSG:4326"}), 2,
+                 "but x is from -9999 to 11");
+  const Outcome left = succeeded(hull({table, "--window", "-180,-90,180,90"}));
+  EXPECT_EQ(json::parse(left.out)["properties"]["points"], 3);
+  expect_says(left.err, "longitude and latitude: lengths are in metres");
+  EXPECT_EQ(json::parse(succeeded(hull({table, "--crs", "none"})).out)["properties"]["points"], 4);
+}
+
+TEST_F(HullCommandTest, BothSidesOfTheDateLineAreTold) {
+  const std::string words = "write western longitudes as 180 to 360";
+  expect_says(hull({file("a.csv", "lon,lat\n179,1\n-179,1\n179,2\n")}).err, words);
+  EXPECT_EQ(hull({file("b.csv", "lon,lat\n179,1\n181,1\n179,2\n")}).err.find(words), std::string::npos);
 }
 
 TEST_F(HullCommandTest, TheCoordinateSystemIsPassedOn) {
@@ -641,7 +699,7 @@ TEST_F(HullCommandTest, AStreamSaysWhatItCannotDo) {
   for (const auto& [arguments, sentence] : std::vector<std::pair<std::vector<std::string>, std::string>>{
            {{clustered, "--memory", "1"},
             "is chosen by a triangulation of them all, which needs more memory"},
-           {{npy, "--alpha", "1", "--one"}, "--stream does not go with --one and --cover"},
+           {{npy, "--alpha", "1", "--one"}, "--stream does not go with --one;"},
            {{npy, "--alpha", "1", "--by", "x"}, "--stream does not go with --by"},
            {{npy, "--alpha", "1", "--format", "svg"}, "--stream does not go with --format svg"},
            {{npy, "--alpha", "1", "--min-area", "1"}, "--stream does not go with --min-area"},
@@ -852,6 +910,11 @@ TEST_F(ShardTest, ShardsSayWhatTheyCannotDo) {
            {{"--alpha", "1e-9", "--stream", "--shard", "1/2"}, "the limit is too small for the distances"},
            {{npy, "--alpha", "1"}, "several files are one set of points with --stream only"}}) {
     expect_refusal(hull(joined({npy, "--out", out}, arguments)), 2, sentence);
+  }
+  for (const std::string name : {"part.geojson", "part.las"}) {
+    expect_refusal(
+        hull({npy, "--alpha", "1", "--stream", "--shard", "1/2", "--out", (folder() / name).string()}), 2,
+        "--shard writes a part for 'polylidar merge', neither points nor polygons");
   }
   expect_refusal(
       hull({npy, "--alpha", "1", "--stream", "--shard", "1/2", "--out", (folder() / "a.gpkg").string()}), 2,

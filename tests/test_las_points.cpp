@@ -98,6 +98,19 @@ TEST_F(LasPointsTest, TheCountIsTheLongOneWhereThereIsOne) {
   EXPECT_EQ(read_bytes(text).points, file.places());
 }
 
+TEST_F(LasPointsTest, PointsThatTheHeaderDoesNotCountAreTold) {
+  const LasFile file = some_points(2, 1);
+  std::string text = file.text();
+  EXPECT_EQ(read_bytes(text).note, "");
+  const std::uint32_t counted = 39000;
+  text.replace(107, 4, reinterpret_cast<const char*>(&counted), 4);
+  const PointFile fewer = read_bytes(text);
+  EXPECT_EQ(fewer.points.size(), counted);
+  EXPECT_EQ(
+      fewer.note,
+      "its header counts 39000 points, and there is room for 1000 more behind them, which are left out");
+}
+
 TEST_F(LasPointsTest, ChoosesByReturnClassWindowAndLeavesOutTheWithheld) {
   for (const unsigned format : {1U, 7U}) {
     LasFile file = some_points(4, format);

@@ -103,6 +103,16 @@ TEST_F(PointFilesTest, ColumnsByNameAndByNumber) {
   EXPECT_EQ(read_columns("x,X\n1,2\n", "X,x"), (Points{{2, 1}}));
 }
 
+TEST_F(PointFilesTest, CommentsAreBeforeTheFirstRow) {
+  EXPECT_EQ(read("a.csv", "# of the north\n  # x,y\n1,2\n"), (Points{{1, 2}}));
+  EXPECT_EQ(read_columns("id,x,y\n#1,1,2\n#2,3,4\n", ""), (Points{{1, 2}, {3, 4}})) << "names of points";
+}
+
+TEST_F(PointFilesTest, TheDelimiterOfASpreadsheet) {
+  EXPECT_EQ(read("a.csv", "sep=;\nx;y;z\n1;2;3\n"), (Points{{1, 2}}));
+  EXPECT_EQ(read("a.csv", "sep=|\nx|y\n1|2\n"), (Points{{1, 2}}));
+}
+
 TEST_F(PointFilesTest, SpellingsOfNumbers) {
   EXPECT_EQ(read("a.csv", "+1,-2e+3\n.5,1E-2\n\"3\",\"4\"\n1e-400,-0\n"),
             (Points{{1, -2000}, {0.5, 0.01}, {3, 4}, {0, -0.0}}));
@@ -242,7 +252,9 @@ TEST_F(PointFilesTest, FaultsInColumns) {
        "names"},
       {"a.csv", "n;H\xC3\xB6he;\xFF\xC3;\xC2\x9B\n1;2;3;4\n",
        "the columns 'n', 'H\xC3\xB6he', '?\?', '?\?' is"},
-      {"a.csv", "1,2\n\n#\n3,\n", ", line 4: a coordinate is missing"},
+      {"a.csv", "#\n1,2\n\n3,\n", ", line 4: a coordinate is missing"},
+      {"a.csv", "1,2\n# of the south\n", ", line 2: there is no column 2"},
+      {"a.csv", "x,y\r1,2\r3,4\r", "line 1: lines end with a carriage return alone"},
       {"a.csv", "1,2\n3,abc\n", ", line 2: 'abc' is not a number"},
       {"a.csv", "1,abc\n", ", line 1: 'abc' is not a number"},
       {"a.csv", "1;2,5\n", "with a point and no comma"},

@@ -133,10 +133,11 @@ class Widening {
     });
   }
 
-  /// The least factor from `least` on with all polygons that `least` gives in one.
+  /// The least factor from `least` on with all polygons that `least` gives in one; where it gives none, with
+  /// one polygon.
   double one(double least) {
     const IndexedMultiPolygon parts = shape(least);
-    if (parts.polygon_count() < 2) return least;
+    if (parts.polygon_count() == 1 || !extractor_.has_triangles()) return least;
     return least_factor(least, [&](double factor) {
       const IndexedMultiPolygon& wider = shape(factor);
       return wider.polygon_count() == 1 || polygon_with_all(parts, wider).has_value();

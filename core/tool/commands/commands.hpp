@@ -20,17 +20,19 @@ namespace polylidar::tool {
 /// How a shape is made of points, and which points: what hull and footprint have, and of it the output merge.
 /// Lengths are in the unit of the points, of longitudes and latitudes in metres.
 struct ShapeChoice {
-  HullOptions hull;             ///< how the shape is made; without threads and latitude
-  std::string returns = "all";  ///< "all", "first" or "last"
-  std::string classes;          ///< such as "2,6"; empty: all
-  std::string window;           ///< "xmin,ymin,xmax,ymax"; empty: no window
-  std::string crs;              ///< "none", "EPSG:n" or "n"; empty: what the file says
-  unsigned threads = 0;         ///< 0: as many as there are processors
-  std::uint64_t memory = 0;     ///< the most for points, in MiB; 0: half of what is free
-  std::string out;              ///< a file, or what GDAL writes to; empty: standard output
-  std::string format = "auto";  ///< "geojson" and so on, or "gdal:" and the name of a driver
-  std::string layer;            ///< of the input, where GDAL reads it
-  std::string out_layer;        ///< of the output, where GDAL writes it
+  HullOptions hull;                   ///< how the shape is made; without threads and latitude
+  std::string returns = "all";        ///< "all", "first" or "last"
+  std::string classes;                ///< such as "2,6"; empty: all
+  std::string window;                 ///< "xmin,ymin,xmax,ymax"; empty: no window
+  std::string crs;                    ///< "none", "EPSG:n" or "n"; empty: what the file says
+  std::string input_format = "auto";  ///< a name that point_format_of() knows
+  std::string columns;                ///< see PointFileOptions
+  unsigned threads = 0;               ///< 0: as many as there are processors
+  std::uint64_t memory = 0;           ///< the most for points, in MiB; 0: half of what is free
+  std::string out;                    ///< a file, or what GDAL writes to; empty: standard output
+  std::string format = "auto";        ///< "geojson" and so on, or "gdal:" and the name of a driver
+  std::string layer;                  ///< of the input, where GDAL reads it
+  std::string out_layer;              ///< of the output, where GDAL writes it
 };
 
 /// From a file of points to polygons.
@@ -40,12 +42,10 @@ struct HullCommand {
 
   std::vector<std::string> inputs;  ///< paths, or "-" for standard input; several for `stream` only
   ShapeChoice shape;
-  std::string input_format = "auto";  ///< a name that point_format_of() knows
-  std::string columns;                ///< see PointFileOptions
-  std::string by;                     ///< likewise
-  bool keep_outliers = false;         ///< the points left outside are written too
-  bool stream = false;                ///< the files are read again and again, their points are not kept
-  std::string shard;                  ///< such as "2/7": only what that shard finds, for MergeCommand
+  std::string by;              ///< see PointFileOptions
+  bool keep_outliers = false;  ///< the points left outside are written too
+  bool stream = false;         ///< the files are read again and again, their points are not kept
+  std::string shard;           ///< such as "2/7": only what that shard finds, for MergeCommand
 };
 
 /// From what all shards of `hull --stream --shard` found to polygons.

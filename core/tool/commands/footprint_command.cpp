@@ -214,7 +214,7 @@ class IndexRun {
   struct Footprint {
     Facts facts;
     Crs crs;
-    std::string note;  ///< PointFile::note
+    std::string note;  ///< what is said of the file beside its shape
     GroupHull hull;    ///< of `points`
     std::vector<Point> points;
   };
@@ -251,10 +251,13 @@ class IndexRun {
     Footprint made;
     made.crs = chosen_crs(command_.shape, file.crs);
     made.note = file.note;
-    made.hull = std::move(locate_hulls(file, command_.shape, false, threads, [&](const std::string& doing) {
-                            files_.show(place, doing);
-                          }).groups[0]);
+    LocatedHulls hulls = locate_hulls(file, command_.shape, false, threads,
+                                      [&](const std::string& doing) { files_.show(place, doing); });
+    made.hull = std::move(hulls.groups[0]);
     made.facts.add(file.points);
+    if (hulls.latitude && spans_date_line(made.facts.bounds)) {
+      made.note += (made.note.empty() ? "" : "; ") + std::string(kSpansDateLine);
+    }
     made.facts.add(file.classes);
     made.points = std::move(file.points);
     return made;
@@ -347,7 +350,7 @@ class UnionRun {
     add_up();
     find_plane();
     const StreamedHull hull = stream_by_some_limit();
-    const std::string limit = limit_in_words(hull.chosen_sizes, hull.by_outlines);
+    const std::string limit = limit_in_words(hull.chosen_sizes, hull.by_outlines, {});
     if (!limit.empty()) say(limit);
     output_.write(geojson_collection(std::vector{feature(hull)}, geojson_crs(crs_)), crs_, status_);
     const ExitCode code = files_.summary("the union");
@@ -394,7 +397,9 @@ class UnionRun {
     const PointFile file = read_point_file(path, options);
     facts.add(file.classes);
     notes_[place] = file.note;
-    return chosen_crs(command_.shape, file.crs);
+    const Crs crs = chosen_crs(command_.shape, file.crs);
+    check_degrees(crs, facts.bounds);
+    return crs;
   }
 
   void add_up() {
@@ -416,6 +421,7 @@ class UnionRun {
     if (all_.points == 0) return;
     const std::array<Point, 2> corners = {all_.bounds.min, all_.bounds.max};
     latitude_ = middle_latitude(crs_, corners);
+    if (latitude_ && spans_date_line(all_.bounds)) say(std::string(kSpansDateLine));
   }
 
   /// The sizes that are chosen for all points. Where that needs more memory than there is: one limit for all,

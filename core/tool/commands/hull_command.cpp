@@ -56,8 +56,11 @@ class HullRun {
           "several files are one set of points with --stream only; give that, or ask 'polylidar "
           "footprint --union'");
     }
-    if (!command_.shard.empty()) {
-      throw ConfigurationError("--shard is for what --stream reads; add --stream, or leave --shard out");
+    for (const auto& [option, is_given] :
+         {std::pair("--shard", !command_.shard.empty()), std::pair("--memory", command_.shape.memory > 0)}) {
+      if (!is_given) continue;
+      throw ConfigurationError(std::string(option) + " is for what --stream reads; add --stream, or leave " +
+                               option + " out");
     }
     if (output_.has_features()) return;
     if (!command_.by.empty() && output_.text_format() != "svg") {
@@ -79,8 +82,6 @@ class HullRun {
 
   void read() {
     PointFileOptions options = point_options(command_.shape, surroundings_);
-    options.format = point_format_of(command_.input_format).value_or(PointFormat::kAuto);
-    options.columns = command_.columns;
     options.by = command_.by;
     options.on_progress = [&](std::uint64_t bytes, std::optional<std::uint64_t> size) {
       show(reading(bytes, size));
@@ -102,13 +103,14 @@ class HullRun {
     if (may_be_degrees(command_.shape, crs_, box)) say(std::string(kMayBeDegrees));
     if (!hulls_.latitude) return;
     say("longitude and latitude: lengths are in metres, true at latitude " +
-        shortest(std::round(*hulls_.latitude * 100) / 100) +
+        shortest(std::round(*hulls_.latitude * 100) / 100 + 0.0) +
         ", and areas are those on the sphere; --crs none takes degrees as they are");
+    if (spans_date_line(box)) say(std::string(kSpansDateLine));
   }
 
   /// What was chosen, or why there is nothing.
   void explain(const GroupHull& hull) {
-    const std::string limit = limit_in_words(hull.sizes, hull.by_outlines);
+    const std::string limit = limit_in_words(hull.sizes, hull.by_outlines, command_.shape.hull.wanted);
     if (!limit.empty()) say(limit);
     if (!hull.shape.empty()) return;
     if (hull.extracted > 0) {
@@ -237,12 +239,6 @@ void add_hull_options(CLI::App& app, HullCommand& command) {
       std::string(kGdalHelp));
   app.add_option("FILE", command.inputs, "The points; - for standard input; several with --stream")
       ->required();
-  app.add_option("--input", command.input_format, "The input's format")
-      ->check(CLI::IsMember({"auto", "csv", "xyz", "geojson", "wkt", "npy", "raw", "ply", "las", "gdal"}))
-      ->capture_default_str();
-  app.add_option(
-      "--columns", command.columns,
-      "The columns of x and y in a text file: names, such as lon,lat, or numbers from 1, such as 2,3");
   app.add_option(
       "--by", command.by,
       "Make one shape for each value of this column of a text file or a layer, by its name or its "

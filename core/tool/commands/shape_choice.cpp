@@ -91,6 +91,12 @@ void add_shape_options(CLI::App& app, ShapeChoice& choice) {
     cover->excludes(app.get_option(cleaning));
   }
   app.get_option("--one")->excludes(app.get_option("--min-triangles"));  // the one polygon stays
+  app.add_option("--input", choice.input_format, "The input's format")
+      ->check(CLI::IsMember({"auto", "csv", "xyz", "geojson", "wkt", "npy", "raw", "ply", "las", "gdal"}))
+      ->capture_default_str();
+  app.add_option(
+      "--columns", choice.columns,
+      "The columns of x and y in a text file: names, such as lon,lat, or numbers from 1, such as 2,3");
   app.add_option("--returns", choice.returns,
                  "Use all returns of a LAS file, or only the first or the last ones")
       ->check(CLI::IsMember({"all", "first", "last"}))
@@ -140,6 +146,8 @@ void add_format_option(CLI::App& app, ShapeChoice& choice, const std::vector<std
 PointFileOptions point_options(const ShapeChoice& choice, const Surroundings& surroundings) {
   PointFileOptions options;
   options.vector_formats = surroundings.vector_formats;
+  options.format = point_format_of(choice.input_format).value_or(PointFormat::kAuto);
+  options.columns = choice.columns;
   options.layer = choice.layer;
   if (choice.returns == "first") options.returns = Returns::kFirst;
   if (choice.returns == "last") options.returns = Returns::kLast;
@@ -226,12 +234,27 @@ void check_magnitude(std::span<const Point> points) {
       "--keep-outliers; scale them");
 }
 
+void check_degrees(const Crs& crs, const Box& box) {
+  const bool is_empty = box.min.x > box.max.x;
+  if (!crs.is_geographic || !crs.is_given || is_empty || could_be_degrees(box)) return;
+  throw ConfigurationError(
+      "the coordinate system is longitude and latitude, but x is from " + shortest(box.min.x) + " to " +
+      shortest(box.max.x) + " and y from " + shortest(box.min.y) + " to " + shortest(box.max.y) +
+      "; leave out points that are none with --window -180,-90,180,90, or say with --crs what they are");
+}
+
+bool spans_date_line(const Box& box) {
+  return box.max.x - box.min.x > 180;
+}
+
 LocatedHulls locate_hulls(const PointFile& file, const ShapeChoice& choice, bool is_grouped, unsigned threads,
                           const OnStep& on_step) {
   HullOptions options = choice.hull;
   if (options.wanted.one || options.wanted.cover || options.simplify > 0) check_magnitude(file.points);
   LocatedHulls hulls;
-  hulls.latitude = middle_latitude(chosen_crs(choice, file.crs), file.points);
+  const Crs crs = chosen_crs(choice, file.crs);
+  check_degrees(crs, bounding_box(file.points));
+  hulls.latitude = middle_latitude(crs, file.points);
   if (hulls.latitude) hulls.metres = to_metres(file.points, *hulls.latitude);
   if (is_grouped && file.points.empty()) return hulls;
   options.latitude = hulls.latitude;
@@ -250,13 +273,19 @@ std::string no_points(const ShapeChoice& choice, const std::string& file) {
                      : ": it has no points, so there is no shape");
 }
 
-std::string limit_in_words(const std::optional<ChosenSizes>& sizes, bool by_outlines) {
+std::string limit_in_words(const std::optional<ChosenSizes>& sizes, bool by_outlines, const Wanted& wanted) {
   const std::string by_hand(kByHand);
   if (by_outlines) return std::string(kOnlyOutlines) + by_hand;
   if (!sizes) return "";
   std::string range = four_digits(sizes->least);
   if (sizes->most > sizes->least) range += " (where points are densest) to " + four_digits(sizes->most);
-  return "triangles of size " + range + " at most, chosen from the points; --detail scales it, " + by_hand;
+  const std::string limit = "triangles of size " + range + " at most, chosen from the points";
+  if (!wanted.one && !wanted.cover) return limit + "; --detail scales it, " + by_hand;
+  const std::string widened_by = wanted.one && wanted.cover ? "--one and --cover"
+                                 : wanted.one               ? "--one"
+                                                            : "--cover";
+  return limit + " and widened as far as " + widened_by + (wanted.one && wanted.cover ? " need" : " needs") +
+         "; " + by_hand;
 }
 
 void add_limits(const Options& limits, const std::optional<ChosenSizes>& sizes, bool by_outlines,

@@ -69,6 +69,18 @@ inline constexpr std::string_view kMayBeDegrees =
 /// Whether kMayBeDegrees is to be said of points in `box`.
 bool may_be_degrees(const ShapeChoice& choice, const Crs& crs, const Box& box);
 
+/// Throws ConfigurationError where a system that was given, not one that is only usual, is longitude and
+/// latitude, and a coordinate in `box` cannot be one: as metres the shape would be as wrong as unseen.
+void check_degrees(const Crs& crs, const Box& box);
+
+/// What is said where longitudes span more than half of the globe.
+inline constexpr std::string_view kSpansDateLine =
+    "the points span more than 180 degrees of longitude; if they lie on both sides of the date line, write "
+    "western longitudes as 180 to 360";
+
+/// Whether kSpansDateLine is to be said of longitudes and latitudes in `box`.
+bool spans_date_line(const Box& box);
+
 /// What the help of hull and footprint says of GDAL.
 inline constexpr std::string_view kGdalHelp =
     "A build with GDAL (-DPOLYLIDAR_WITH_GDAL=ON) also reads points from GeoPackage, Shapefile, FlatGeobuf, "
@@ -103,9 +115,9 @@ inline constexpr std::string_view kByHand = "--alpha, --max-edge-length or --max
 inline constexpr std::string_view kLimitOrMemory =
     "--alpha, --max-edge-length or --max-perimeter, or more --memory";
 
-/// What is said of the range of the sizes that were chosen, or of a shape `by_outlines`; empty where a limit
-/// was given.
-std::string limit_in_words(const std::optional<ChosenSizes>& sizes, bool by_outlines);
+/// What is said of the range of the sizes that were chosen, and widened for what is `wanted`, or of a shape
+/// `by_outlines`; empty where a limit was given.
+std::string limit_in_words(const std::optional<ChosenSizes>& sizes, bool by_outlines, const Wanted& wanted);
 
 /// Adds the limits that were given, or this range, which decides nothing `by_outlines`.
 void add_limits(const Options& limits, const std::optional<ChosenSizes>& sizes, bool by_outlines,

@@ -1,6 +1,7 @@
 #include "tool/commands/shape_output.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
@@ -15,13 +16,22 @@ namespace polylidar::tool {
 namespace {
 
 constexpr std::string_view kGdal = "gdal:";
+constexpr std::string_view kKnownEndings =
+    "name it .geojson, .wkt, .wkb or .svg, or say with --format what it is";
+
+std::string ending_of(const std::string& path) {
+  return lower_case(std::filesystem::path(path).extension().string());
+}
 
 /// --format, or what the output's name says.
 std::string format_of(const ShapeChoice& choice) {
   if (choice.format != "auto") return choice.format;
   if (is_for_gdal(choice.out)) return std::string(kGdal);
-  const std::string ending = lower_case(std::filesystem::path(choice.out).extension().string());
-  return ending == ".wkt" || ending == ".wkb" || ending == ".svg" ? ending.substr(1) : "geojson";
+  const std::string ending = ending_of(choice.out);
+  if (names_polygons(choice.out)) return ending == ".json" ? "geojson" : ending.substr(1);
+  if (ending.empty() || names_points(choice.out)) return "geojson";  // the latter is refused, see below
+  throw ConfigurationError("--out " + choice.out + ": the ending " + ending + " names no format; " +
+                           std::string(kKnownEndings));
 }
 
 }  // namespace
@@ -48,20 +58,26 @@ ShapeOutput::ShapeOutput(const ShapeChoice& choice, const VectorFormats* formats
 }
 
 void ShapeOutput::check_against(std::span<const std::string> inputs) const {
+  check_is_none_of(path_, inputs);
+  if (!is_format_given_ && names_points(path_)) {
+    throw ConfigurationError("--out " + path_ + " has the ending of a file of points; " +
+                             std::string(kKnownEndings));
+  }
+}
+
+bool names_polygons(const std::string& path) {
+  constexpr std::array<std::string_view, 5> kPolygonEndings = {".geojson", ".json", ".wkt", ".wkb", ".svg"};
+  return std::find(kPolygonEndings.begin(), kPolygonEndings.end(), ending_of(path)) != kPolygonEndings.end();
+}
+
+void check_is_none_of(const std::string& out, std::span<const std::string> inputs) {
   static const std::string kStandardInput = "/dev/stdin";
   std::error_code error;
   for (const std::string& input : inputs) {
     const std::string& read = input == "-" ? kStandardInput : input;
-    if (std::filesystem::is_regular_file(path_, error) && std::filesystem::equivalent(path_, read, error)) {
-      throw ConfigurationError("--out " + path_ +
-                               " would replace the points that are read; give another file");
+    if (std::filesystem::is_regular_file(out, error) && std::filesystem::equivalent(out, read, error)) {
+      throw ConfigurationError("--out " + out + " would replace the points that are read; give another file");
     }
-  }
-  if (!is_format_given_ && names_points(path_)) {
-    throw ConfigurationError(
-        "--out " + path_ +
-        " has the ending of a file of points; name it .geojson, .wkt, .wkb or .svg, or say "
-        "with --format what it is");
   }
 }
 

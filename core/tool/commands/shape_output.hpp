@@ -12,6 +12,12 @@
 
 namespace polylidar::tool {
 
+/// Whether the ending of `path` is that of a format of polygons that is written here.
+bool names_polygons(const std::string& path);
+
+/// Throws ConfigurationError where `out` is one of the files that are read.
+void check_is_none_of(const std::string& out, std::span<const std::string> inputs);
+
 /// What --format, --out and --out-layer ask for.
 class ShapeOutput {
  public:

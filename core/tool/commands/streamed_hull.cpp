@@ -14,6 +14,7 @@
 #include "tool/points/point_sources.hpp"
 #include "tool/program/configuration_error.hpp"
 #include "tool/program/interrupt.hpp"
+#include "tool/program/result_output.hpp"
 #include "tool/program/status_line.hpp"
 
 namespace polylidar::tool {
@@ -64,11 +65,12 @@ class StreamRun {
     check_readable_again(inputs, "--stream");
     if (!command_.by.empty()) refuse("--stream", "--by");
     if (command_.keep_outliers) refuse("--stream", "--keep-outliers");
-    if (hull.wanted.one || hull.wanted.cover) refuse("--stream", "--one and --cover");
+    if (hull.wanted.one) refuse("--stream", "--one");
+    if (hull.wanted.cover) refuse("--stream", "--cover");
     if (hull.min_triangles > 0) refuse("--stream", "--min-triangles");
-    if (hull.min_area > 0 || hull.max_parts || hull.simplify > 0) {
-      refuse("--stream", "--min-area, --max-parts and --simplify");
-    }
+    if (hull.min_area > 0) refuse("--stream", "--min-area");
+    if (hull.max_parts) refuse("--stream", "--max-parts");
+    if (hull.simplify > 0) refuse("--stream", "--simplify");
     const bool is_limit_given = core_.alpha || core_.max_edge_length || core_.max_perimeter;
     if (!command_.shard.empty() && !is_limit_given) {
       throw ConfigurationError("--shard needs a limit; give --alpha, --max-edge-length or --max-perimeter");
@@ -106,7 +108,13 @@ class StreamRun {
           "--shard writes a part and no polygons, so --format, --out-layer and outputs of GDAL are for "
           "'polylidar merge'; give them there");
     }
-    ShapeOutput(shape, surroundings_.vector_formats).check_against(command_.inputs);
+    check_output_place(shape.out);
+    check_is_none_of(shape.out, command_.inputs);
+    if (names_points(shape.out) || names_polygons(shape.out)) {
+      throw ConfigurationError("--out " + shape.out +
+                               ": --shard writes a part for 'polylidar merge', neither points nor polygons; "
+                               "give it another ending, or none, as in part-1");
+    }
     const StreamShard part = part_of_stream(sources(1), core_, *shard, stream_options());
     status_.clear();
     status_.say(surroundings_.program + ": shard " + std::to_string(shard->number) + " of " +
@@ -119,8 +127,6 @@ class StreamRun {
 
   PointFileOptions file_options() const {
     PointFileOptions options = point_options(command_.shape, surroundings_);
-    options.format = point_format_of(command_.input_format).value_or(PointFormat::kAuto);
-    options.columns = command_.columns;
     options.on_progress = [](std::uint64_t, std::optional<std::uint64_t>) { throw_if_interrupted(); };
     return options;
   }
@@ -220,7 +226,7 @@ void write_streamed_hull(const StreamedHull& hull, const Options& options, const
              (hull.points == 0 ? "there are no points, so there is no shape"
                                : std::to_string(hull.triangulated_points) + " of " +
                                      std::to_string(hull.points) + " points are near the outline"));
-  const std::string limit = limit_in_words(hull.chosen_sizes, hull.by_outlines);
+  const std::string limit = limit_in_words(hull.chosen_sizes, hull.by_outlines, {});
   if (!limit.empty()) status.say(program + ": " + limit);
   const std::string& format = output.text_format();
   output.write(format == "wkt"   ? to_wkt(hull.polygons)

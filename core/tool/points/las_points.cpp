@@ -92,6 +92,7 @@ class LasReader {
     skip_to(header_.points_at, "the points");
     check_size();
     read_points();
+    note_records_behind();
     read_extended_records();
     if (!has_wkt_) file_.crs = crs_of_geokeys(geokeys_, geokey_texts_).value_or(Crs());
     if (!reader_.options().by.empty()) labels_.finish(file_);
@@ -178,6 +179,22 @@ class LasReader {
       if (header_.points_at - position_ < size) return;
       if (!read_record(start.data(), size)) return;
     }
+  }
+
+  /// Says where bytes follow that look like more points than the header counts, as a program leaves them
+  /// that was stopped while it wrote. Waveforms may follow those of formats 4, 5, 9 and 10.
+  void note_records_behind() {
+    const unsigned format = header_.format;
+    const bool may_have_waveforms = format == 4 || format == 5 || format >= 9;
+    const std::optional<std::uint64_t> remaining = reader_.remaining();
+    if (header_.is_compressed || may_have_waveforms || !remaining) return;
+    const std::uint64_t behind = header_.points_at + header_.count * header_.point_size;
+    const std::uint64_t end =
+        header_.extended_records > 0 ? header_.extended_records_at : position_ + *remaining;
+    const std::uint64_t more = end > behind ? (end - behind) / header_.point_size : 0;
+    if (more == 0) return;
+    file_.note = "its header counts " + std::to_string(header_.count) + " points, and there is room for " +
+                 std::to_string(more) + " more behind them, which are left out";
   }
 
   /// Behind the points, in 1.4: as the others, with a length of 64 bits.

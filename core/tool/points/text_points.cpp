@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <deque>
+#include <nlohmann/json.hpp>
 
 #include "tool/points/numbers.hpp"
 #include "tool/points/readers.hpp"
@@ -224,9 +225,25 @@ class ColumnChoice {
   const std::vector<std::string_view>& row_;
 };
 
-bool is_passed_over(std::string_view line) {
+bool is_utf8(const std::string& text) {
+  try {
+    return !nlohmann::json(text).dump().empty();
+  } catch (const nlohmann::json::type_error&) {
+    return false;
+  }
+}
+
+/// What begins with # is a comment before the first row. Behind it, it may be a name or a number of a point.
+bool is_passed_over(std::string_view line, bool is_before_rows) {
   const std::size_t first = line.find_first_not_of(" \t");
-  return first == std::string_view::npos || line[first] == '#';
+  return first == std::string_view::npos || (is_before_rows && line[first] == '#');
+}
+
+/// The delimiter in the line sep=; that spreadsheets write before the first row.
+std::optional<char> announced_delimiter(std::string_view line) {
+  constexpr std::string_view kStart = "sep=";
+  if (line.size() != kStart.size() + 1 || !line.starts_with(kStart)) return {};
+  return line.back();
 }
 
 }  // namespace
@@ -237,8 +254,9 @@ void read_columns(BlockReader& reader, bool only_blanks, PointFile& file) {
   Columns columns;
   const std::optional<Box>& window = reader.options().window;
   std::size_t needed = 0;  // fields; 0: the first row has not come yet
+  std::optional<char> announced;
   const auto start = [&](std::string_view line) {
-    if (!only_blanks) row.separate_by(delimiter_of(line));
+    if (!only_blanks) row.separate_by(announced.value_or(delimiter_of(line)));
     row.split(line, line.size() + 1);
     columns = ColumnChoice(reader, row.fields()).choose(reader.options().columns, reader.options().by);
     needed = columns.needed();
@@ -261,11 +279,16 @@ void read_columns(BlockReader& reader, bool only_blanks, PointFile& file) {
                                : "; give every point its x and y, or choose other columns with --columns"));
   };
   for (std::string_view line; reader.next_line(line);) {
-    if (is_passed_over(line)) continue;
+    if (is_passed_over(line, needed == 0)) continue;
     if (needed == 0) {
       if (line.find('\0') != std::string_view::npos) {
         reader.fail_here("there is a zero byte, so this is no text; name the right format with --input");
       }
+      if (line.find('\r') != std::string_view::npos) {
+        reader.fail_here("lines end with a carriage return alone; convert the file, as with tr '\\r' '\\n'");
+      }
+      if (!announced && !only_blanks) announced = announced_delimiter(line);
+      if (announced && announced_delimiter(line)) continue;
       start(line);
       if (columns.with_header) continue;
     }
@@ -279,7 +302,12 @@ void read_columns(BlockReader& reader, bool only_blanks, PointFile& file) {
     if (columns.by) file.groups.push_back(labels.index_of(row.fields()[*columns.by]));
   }
   hand_on(file, reader.options(), true);
-  if (columns.by) labels.finish(file);
+  if (!columns.by) return;
+  labels.finish(file);
+  if (!std::all_of(file.labels.begin(), file.labels.end(), is_utf8)) {
+    reader.fail(
+        "a value of the column of --by is not UTF-8; convert the file, as with iconv -f latin1 -t utf-8");
+  }
 }
 
 }  // namespace polylidar::tool::point_files

@@ -63,6 +63,17 @@ inline std::string unknown_word(const CLI::App& app) {
                        : "there is no command '" + word + "'" + meant_by(word, known);
 }
 
+/// Throws ConfigurationError for an option of `app` or of its commands that was given no value, as by a
+/// variable of the shell that is not set: it would be as if it were not there.
+inline void check_no_value_is_empty(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    const std::vector<std::string>& values = option->results();
+    if (std::find(values.begin(), values.end(), "") == values.end()) continue;
+    throw ConfigurationError(option->get_name() + " is empty; give it a value, or leave it out");
+  }
+  for (const CLI::App* command : app.get_subcommands()) check_no_value_is_empty(*command);
+}
+
 /// Parses with `app`, whose subcommands set `action`, and gives that; nothing to do when help was asked for.
 /// Throws ConfigurationError when the command line is wrong.
 inline std::function<ExitCode()> parsed_action(CLI::App& app, const std::function<ExitCode()>& action,
@@ -85,6 +96,7 @@ inline std::function<ExitCode()> parsed_action(CLI::App& app, const std::functio
     throw ConfigurationError((unknown.empty() ? std::string(error.what()) : unknown) + "; '" + name +
                              " --help' shows what there is");
   }
+  check_no_value_is_empty(app);
   return action;
 }
 

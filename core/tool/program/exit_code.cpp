@@ -1,18 +1,34 @@
 #include "tool/program/exit_code.hpp"
 
+#include <poll.h>
+#include <unistd.h>
+
 #include <exception>
+#include <iostream>
 
 #include "tool/program/configuration_error.hpp"
 #include "tool/program/interrupt.hpp"
 
 namespace polylidar::tool {
+namespace {
+
+/// Whether standard output is a pipe that is closed at its other end, as by `head`, which has what it wants.
+bool has_nobody_who_reads() {
+  ::pollfd output = {STDOUT_FILENO, POLLOUT, 0};
+  return ::poll(&output, 1, 0) > 0 && (output.revents & POLLERR) != 0;
+}
+
+}  // namespace
+
 ExitCode exit_code_of(const std::string& program, std::ostream& err, const std::function<ExitCode()>& work) {
   const auto complain = [&](const std::string& what, ExitCode code) {
     err << program << ": " << what << "\n";
     return code;
   };
   try {
-    return work();
+    const ExitCode code = work();
+    if (std::cout.flush() || has_nobody_who_reads()) return code;
+    return complain("cannot write standard output; is the disk full?", kExitError);
   } catch (const ConfigurationError& error) {
     return complain(error.what(), kExitUsage);
   } catch (const Interrupted&) {

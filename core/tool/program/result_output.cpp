@@ -1,6 +1,7 @@
 #include "tool/program/result_output.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -30,27 +31,37 @@ int open_file(const std::string& file, int flags, const std::string& name) {
   return descriptor;
 }
 
-/// Where `path` leads: a link stays, and the file that it names gets the result.
-fs::path behind_links(const std::string& path) {
-  std::error_code error;
-  const fs::path target = fs::weakly_canonical(path, error);
-  return error ? fs::path(path) : target;
+bool is_standard_output(const std::string& path) {
+  return path.empty() || path == "-";
 }
 
 }  // namespace
 
+fs::path behind_links(const fs::path& path) {
+  constexpr int kMostLinks = 40;
+  std::error_code error;
+  fs::path target = path;
+  for (int links = 0; links < kMostLinks && fs::is_symlink(target, error); ++links) {
+    target = target.parent_path() / fs::read_symlink(target, error);
+  }
+  return target;
+}
+
 void check_output_place(const std::string& path) {
-  if (path.empty()) return;
+  if (is_standard_output(path)) return;
   const fs::path target = behind_links(path);
   std::error_code ignored;  // where a folder on the way is closed, access() says so
   if (fs::is_directory(target, ignored)) fail(path, EISDIR);
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  const bool replaces = !fs::exists(target, ignored) || fs::is_regular_file(target, ignored);
-  if (::access(replaces ? folder.c_str() : target.c_str(), W_OK) != 0) fail(path, errno);
+  const bool exists = fs::exists(target, ignored);
+  if (exists && ::access(target.c_str(), W_OK) != 0) fail(path, errno);
+  const bool replaces = !exists || fs::is_regular_file(target, ignored);
+  if (replaces && ::access(folder.c_str(), W_OK) != 0) fail(path, errno);
 }
 
-ResultOutput::ResultOutput(const std::string& path) : name_(path.empty() ? "standard output" : path) {
-  if (path.empty()) {
+ResultOutput::ResultOutput(const std::string& path)
+    : name_(is_standard_output(path) ? "standard output" : path) {
+  if (is_standard_output(path)) {
     file_ = STDOUT_FILENO;
     return;
   }
@@ -62,8 +73,21 @@ ResultOutput::ResultOutput(const std::string& path) : name_(path.empty() ? "stan
   }
   const std::string unfinished = target + ".unfinished-" + std::to_string(::getpid());
   file_ = open_file(unfinished, O_CREAT | O_TRUNC, name_);
+  keep_owner_and_mode(target);
   target_ = target;
   unfinished_ = unfinished;
+}
+
+/// Who may read the file that is replaced may read the new one, and nobody else, as far as the system lets
+/// this user set it.
+void ResultOutput::keep_owner_and_mode(const std::string& replaced) const {
+  struct ::stat old = {};
+  if (::stat(replaced.c_str(), &old) != 0) return;
+  const bool is_owner_kept = ::fchown(file_, old.st_uid, old.st_gid) == 0;
+  constexpr ::mode_t kOfGroup = S_IRWXG;
+  const ::mode_t mode = old.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO);
+  // The group of this user is another one.
+  if (::fchmod(file_, is_owner_kept ? mode : mode & ~kOfGroup) != 0) fail(name_, errno);
 }
 
 ResultOutput::~ResultOutput() {

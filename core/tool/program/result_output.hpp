@@ -1,17 +1,22 @@
 // Where a result goes: to standard output or into a file, whole or not at all.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
 namespace polylidar::tool {
 
+/// Where `path` leads: a link stays, and the file that it names gets the result, be it there or not.
+std::filesystem::path behind_links(const std::filesystem::path& path);
+
 /// Throws std::runtime_error when no file can be written at `path`, which would otherwise be known only when
-/// the result is there. Nothing to check for an empty path, standard output.
+/// the result is there. Nothing to check for standard output: an empty path, or -.
 void check_output_place(const std::string& path);
 
-/// A result that is written piece by piece: to standard output (empty path), or into a file of another name
-/// that finish() renames to `path`, so that nobody ever sees half a result; what is there and is no file (a
+/// A result that is written piece by piece: to standard output (an empty path, or -), or into a file of
+/// another name that finish() renames to `path`, so that nobody ever sees half a result. It gets the mode
+/// and, where that is allowed, the owner of the file that it replaces. What is there and is no file (a
 /// device, a named pipe) is written to. All functions throw std::runtime_error when the system refuses (disk
 /// full, pipe closed), and Interrupted when interrupted. Standard output: SIGPIPE must be ignored.
 class ResultOutput {
@@ -26,6 +31,8 @@ class ResultOutput {
   void finish();
 
  private:
+  void keep_owner_and_mode(const std::string& replaced) const;
+
   std::string name_;        ///< for messages
   std::string target_;      ///< the file that the result becomes; empty: what is written to is there already
   std::string unfinished_;  ///< its name until then
