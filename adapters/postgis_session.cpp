@@ -158,14 +158,25 @@ PostgisConnection::PostgisConnection(const PostgisServer& server,
   if (is_private_) {
     const std::filesystem::path bin = find_postgres(server_.bin_folders(), server_.install);
     if (inspect) inspect(bin);
-    private_server_.emplace(bin);
+    bin_ = bin;
+    start_private_server();
+  } else {
+    dsn_ = named;
   }
-  dsn_ = is_private_ ? private_server_->dsn() : named;
   open();
+}
+
+void PostgisConnection::start_private_server() {
+  private_server_.emplace(bin_);
+  dsn_ = private_server_->dsn();
 }
 
 bool PostgisConnection::reopen_if_lost() {
   if (session_->is_open()) return false;
+  if (is_private_) {
+    session_.emplace(dsn_);
+    if (!session_->is_open()) start_private_server();  // the whole server has died
+  }
   open();
   return true;
 }

@@ -94,16 +94,19 @@ class PostgisConnection {
   Session& session() { return *session_; }
 
   /// A session that works: the same one, or a new one when the server has ended it (a backend that crashed,
-  /// for example). True when it is new: temporary tables and prepared statements are then gone.
+  /// for example; a private server that has died is started again). True when it is new: temporary tables and
+  /// prepared statements are then gone.
   bool reopen_if_lost();
 
  private:
   void open();
+  void start_private_server();
   [[noreturn]] void throw_no_connection() const;
 
   PostgisServer server_;
   bool is_private_ = false;
   std::string dsn_;
+  std::filesystem::path bin_;  ///< the programs of a private server
   std::optional<PrivatePostgres> private_server_;
   std::optional<Session> session_;
 };

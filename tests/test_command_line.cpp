@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -210,6 +211,80 @@ TEST_F(CommandLineTest, FullDisk) {
              1, "repetitions.jsonl: is the disk full?");
   EXPECT_EQ(hullbench({"run", small, "--out", "run"}).code, 0);
   expect_no_repetition_twice(folder() / "run", 1000);
+}
+
+TEST_F(CommandLineTest, FullStandardOutput) {
+  succeeded(hullbench({"run", plan({500}, 1), "--out", "run"}));
+  for (const std::string words :
+       {"list", "metrics --json", "tables run", "league run", "--help", "run small.json --dry-run"}) {
+    expect_end(run_program({"/bin/sh", "-c", std::string("'") + HULLBENCH + "' " + words + " > /dev/full"},
+                           in_folder()),
+               1, "cannot write standard output; is the disk full?");
+  }
+  const Outcome closed =
+      run_program({"/bin/sh", "-c", std::string("'") + HULLBENCH + "' list --json | head -c 1"}, in_folder());
+  EXPECT_EQ(closed.err, "") << "whoever reads has enough";
+}
+
+TEST_F(CommandLineTest, DevicesAndLinksAreWrittenTo) {
+  succeeded(hullbench({"run", plan({500}, 1), "--out", "run"}));
+  fs::create_symlink("there.json", folder() / "link.json");
+  succeeded(hullbench({"league", "run", "--out", "link.json"}));
+  EXPECT_TRUE(fs::is_symlink(folder() / "link.json"));
+  EXPECT_TRUE(fs::is_regular_file(folder() / "there.json"));
+  ASSERT_EQ(::mkfifo((folder() / "pipe").c_str(), 0600), 0);
+  const Outcome piped =
+      run_program({"/bin/sh", "-c",
+                   std::string("cat pipe & '") + HULLBENCH + "' league run --out pipe > /dev/null; wait"},
+                  in_folder());
+  EXPECT_TRUE(json::parse(piped.out).is_object());
+  EXPECT_TRUE(fs::is_fifo(folder() / "pipe"));
+}
+
+TEST_F(CommandLineTest, ADamagedRunKeepsItsRows) {
+  const std::string small = plan({500, 600}, 1);
+  succeeded(hullbench({"run", small, "--out", "run"}));
+  const std::string rows = read_text(folder() / "run/runs.jsonl");
+  const std::size_t second = rows.find('\n') + 1;
+  write_text(folder() / "run/runs.jsonl", rows.substr(0, second) + "{\"garbage\":1}\n" + rows.substr(second));
+  expect_refusal(hullbench({"run", small, "--out", "run"}), 1,
+                 "line 2 of run/runs.jsonl is not a run's record");
+  expect_refusal(hullbench({"tables", "run"}), 1, "delete the line to keep the others");
+  write_text(folder() / "run/run.json", "");
+  expect_refusal(hullbench({"run", small, "--out", "run"}), 2,
+                 "has measured rows, but its run.json cannot be read");
+}
+
+TEST_F(CommandLineTest, PlansOfASuiteThatWereNotStartedAreTold) {
+  const std::string small = plan({500}, 1);
+  json other = small_plan("other", california({600}), 1);
+  succeeded(hullbench({"run", small, write(other), "--out", "suite"}));
+  fs::remove_all(folder() / "suite/other");
+  const std::string words = "of the suite in suite these plans were not started: other";
+  expect_says(succeeded(hullbench({"tables", "suite"})).err, words);
+  const Outcome merged = hullbench({"merge", "suite", "--out", "whole"});
+  EXPECT_EQ(merged.code, 4);
+  expect_says(merged.err, words);
+}
+
+TEST_F(CommandLineTest, NumbersThatAreNone) {
+  const std::string small = plan({500}, 1);
+  for (const std::string number : {"nan", "inf", "0", "-1"})
+    expect_refusal(hullbench({"run", small, "--timeout", number}), 2,
+                   "'" + number + "' is no number of seconds");
+  for (const std::string number : {"18446744073709551616", "-1", "1.5", "nan"})
+    expect_refusal(hullbench({"run", small, "--seed", number}), 2,
+                   "'" + number + "' is no whole number from 0 to");
+  expect_refusal(hullbench({"run", write_plan("{\"timeout_s\": 1e400}")}), 2,
+                 "a number that is too large for a double");
+  write_text(folder() / "none.jsonl", "");
+  expect_end(hullbench({"validate", "none.jsonl"}), 1, "It has no record.");
+}
+
+TEST_F(CommandLineTest, APlansFileNeedsNoEnding) {
+  fs::copy_file(plan({500}, 1), folder() / "my_plan");
+  EXPECT_EQ(succeeded(hullbench({"run", "my_plan", "--dry-run"})).out,
+            "polylidar/ca/n:500/holes:0/protocol:paper\npolylidar/ca/n:500/holes:1/protocol:paper\n");
 }
 
 TEST_F(CommandLineTest, NothingMatches) {

@@ -7,15 +7,20 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
+#include <fstream>
 #include <limits>
 #include <memory>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "adapters/adapter.hpp"
+#include "adapters/postgis_session.hpp"
 #include "adapters/private_postgres.hpp"
 #include "tests/adapter_contract.hpp"
 #include "tests/complaint.hpp"
@@ -131,6 +136,23 @@ TEST_F(Postgis, StartsAPrivateServerWhenNoneIsNamed) {
     const auto adapter = make_postgis();
     EXPECT_DOUBLE_EQ(polylidar::area(hull_of(*adapter, {{0, 0}, {2, 0}, {0, 2}}, {{"length_ratio", 1}})), 2);
   }
+}
+
+TEST_F(Postgis, StartsAPrivateServerAgainThatHasDied) {
+  name_none();
+  PostgisConnection connection(kCurrentServer);
+  const Result folder = connection.session().execute("SELECT current_setting('data_directory')");
+  std::ifstream in(std::string(PQgetvalue(folder.get(), 0, 0)) + "/postmaster.pid");
+  pid_t postmaster = 0;
+  in >> postmaster;
+  ASSERT_GT(postmaster, 1);
+  EXPECT_FALSE(connection.reopen_if_lost());
+  ASSERT_EQ(::kill(postmaster, SIGQUIT), 0);
+  for (int wait = 0; ::kill(postmaster, 0) == 0 && wait < 500; ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_THROW(connection.session().execute("SELECT 1"), std::runtime_error);
+  EXPECT_TRUE(connection.reopen_if_lost());
+  EXPECT_NO_THROW(connection.session().execute("SELECT postgis_lib_version()"));
 }
 
 TEST_F(Postgis, HasNoLegacyMethodOnACurrentServer) {

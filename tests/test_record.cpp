@@ -253,7 +253,8 @@ TEST(JsonLines, BrokenLineInTheMiddleIsAnErrorThatNamesIt) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "lines.jsonl";
   write_text(path, "1\n{]\n3\n");
-  expect_complaint([&] { record::load_json_lines(path); }, "Line 2 of " + path.string());
+  expect_complaint([&] { record::load_json_lines(path); },
+                   "line 2 of " + path.string() + " is not JSON; delete the line");
 }
 
 TEST(JsonLines, FileThatCannotBeWrittenIsNamed) {

@@ -10,12 +10,18 @@
 #include <system_error>
 #include <utility>
 
+#include "tool/program/result_output.hpp"
+
 namespace hullbench {
 
 std::optional<std::string> read_text_file(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in.is_open() || fs::is_directory(path)) return std::nullopt;
-  return std::string(std::istreambuf_iterator<char>(in), {});
+  try {
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  } catch (const std::ios_base::failure& error) {
+    throw std::runtime_error("cannot read " + path.string() + ": " + error.code().message());
+  }
 }
 
 std::string required_text(const fs::path& path) {
@@ -23,19 +29,24 @@ std::string required_text(const fs::path& path) {
   throw std::runtime_error("Cannot read " + path.string() + ".");
 }
 
-void write_text_file(const fs::path& path, const std::string& text) {
+void write_text_file(const fs::path& given, const std::string& text) {
+  const fs::path path = polylidar::tool::behind_links(given);
+  std::error_code unknown;
+  const bool is_device = fs::exists(path, unknown) && !fs::is_regular_file(path, unknown) &&
+                         !fs::is_directory(path, unknown);  // a folder is refused below
   fs::path temporary = path;
-  temporary += ".new";
+  if (!is_device) temporary += ".new";
   {
     std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
     out << text << std::flush;
     if (!out) {
       std::error_code ignored;
-      fs::remove(temporary, ignored);
+      if (!is_device) fs::remove(temporary, ignored);
       throw std::runtime_error("cannot write " + path.string() +
                                "; is its folder there and writable, and the disk not full?");
     }
   }
+  if (is_device) return;
   std::error_code error;
   fs::rename(temporary, path, error);
   if (!error) return;

@@ -10,14 +10,16 @@
 
 namespace hullbench {
 
-/// The bytes of a file; none of a folder and where there is nothing to be read.
+/// The bytes of a file; none of a folder and where there is nothing to be read. Throws std::runtime_error
+/// naming the file when its disk fails.
 std::optional<std::string> read_text_file(const fs::path& path);
 
 /// The same; throws std::runtime_error naming the file when there are none.
 std::string required_text(const fs::path& path);
 
-/// Writes a file whole or not at all: a temporary file beside it is renamed. Throws std::runtime_error naming
-/// the file when it cannot be written.
+/// Writes a file whole or not at all: a temporary file beside it is renamed. A link stays, and what it names
+/// is written; what is no file, such as a device, is written to. Throws std::runtime_error naming the file
+/// when it cannot be written.
 void write_text_file(const fs::path& path, const std::string& text);
 
 /// Writes `content`, indented, as write_text_file does.

@@ -281,7 +281,7 @@ void add_choose(CLI::App& app, Action& action) {
                       std::to_string(kMostPoints) + " for slow methods, and all points with --write")
       ->check(CLI::Range(std::size_t{3}, std::size_t{1} << 32U));
   options.add_option("--seed", command->seed, "Seed of the random choice of points and of halves")
-      ->check(CLI::NonNegativeNumber)
+      ->check(seed_range())
       ->capture_default_str();
   options.add_option("--timeout", command->timeout_s, "Time limit of one run in seconds")
       ->check(timeout_range())

@@ -41,7 +41,7 @@ json read_report(const fs::path& file) {
 }
 
 json read_lines(const fs::path& file) {
-  return {{"runs", record::last_of_each_id(record::load_json_lines(file).lines, file)}};
+  return {{"runs", record::last_of_each_id(record::load_json_lines(file), file)}};
 }
 
 report::ComparedSide read_side(const std::string& path) {

@@ -93,6 +93,8 @@ ExitCode merge(const MergeCommand& command) {
   const auto suites = static_cast<std::size_t>(std::ranges::count_if(command.sources, record::is_suite));
   if (suites != 0 && suites != command.sources.size())
     throw ConfigurationError("some of the folders hold a run and some a suite; merge runs or suites");
+  std::size_t not_started = 0;
+  for (const fs::path& source : command.sources) not_started += say_plans_without_run(source);
   std::vector<run::MergedRun> runs;
   if (suites == 0) {
     runs.push_back(run::merge_runs(command.sources));
@@ -111,7 +113,8 @@ ExitCode merge(const MergeCommand& command) {
   }
   table::print_markdown(report::make_documents(reports_in(command.out)), std::cout);
   say_merged(runs, command);
-  return merged_exit_code(runs);
+  const ExitCode code = merged_exit_code(runs);
+  return code == kExitOk && not_started > 0 ? kExitFailures : code;
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 
 #include <unistd.h>
 
+#include <charconv>
 #include <cstdint>
+#include <system_error>
 
 #include "benchmarks/base/configuration_error.hpp"
 
@@ -39,8 +41,25 @@ void add_export_gbench(CLI::App& options, fs::path& file) {
                      "Also write the times into this file, as Google Benchmark's JSON");
 }
 
-CLI::Range timeout_range() {
-  return {0.001, 1e6};
+CLI::Validator timeout_range() {
+  return {[](const std::string& text) -> std::string {
+            double seconds = 0;
+            const bool is_number = CLI::detail::lexical_cast(text, seconds);
+            if (is_number && seconds >= 0.001 && seconds <= 1e6) return "";  // NaN is not
+            return "'" + text + "' is no number of seconds from 0.001 to 1000000";
+          },
+          "FLOAT in [0.001 - 1e+06]"};
+}
+
+CLI::Validator seed_range() {
+  return {[](const std::string& text) -> std::string {
+            std::uint64_t seed = 0;
+            const char* const end = text.data() + text.size();
+            const auto [parsed, error] = std::from_chars(text.data(), end, seed);
+            if (error == std::errc() && parsed == end) return "";
+            return "'" + text + "' is no whole number from 0 to 18446744073709551615";
+          },
+          "UINT"};
 }
 
 CLI::Range memory_range() {

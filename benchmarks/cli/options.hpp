@@ -40,7 +40,9 @@ void add_shard(CLI::App& options, std::optional<run::Shard>& shard, const std::s
 void add_export_gbench(CLI::App& options, fs::path& file);
 
 /// What --timeout, in seconds, takes.
-CLI::Range timeout_range();
+CLI::Validator timeout_range();
+/// What --seed takes.
+CLI::Validator seed_range();
 /// What --mem-limit, in MiB, takes.
 CLI::Range memory_range();
 

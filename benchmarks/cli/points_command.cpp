@@ -230,7 +230,7 @@ void add_points(CLI::App& app, Action& action) {
           "Number of points of each shape; not for data sets that come with their points, such as floor-1")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000'000'000'000}));
   options.add_option("--seed", command->seed, "Seed of the random numbers")
-      ->check(CLI::NonNegativeNumber)
+      ->check(seed_range())
       ->capture_default_str();
   options.add_flag("--holes", command->holes, "Take the variant with holes");
   options

@@ -28,6 +28,9 @@ void check_out(const RescoreCommand& command) {
     throw ConfigurationError("the output folder " + command.out.string() +
                              " is not empty; choose another one with --out");
   }
+  const bool was_there = fs::exists(command.out);
+  make_writable_folder(command.out);
+  if (!was_there) fs::remove(command.out);  // it is made again when there is something to write
 }
 
 /// Writes the run or suite with its new scores; the old one stays as it is.

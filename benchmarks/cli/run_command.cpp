@@ -427,7 +427,7 @@ void add_run(CLI::App& app, Action& action) {
       ->check(CLI::Range(1, plan::kMaxPasses));
   options.add_option("--out", command->out, "Folder for the results, instead of a new one in results/runs");
   options.add_option("--seed", command->seed, "Seed of the sampled points and of the order of the runs")
-      ->check(CLI::NonNegativeNumber);
+      ->check(seed_range());
   options.add_option("--timeout", command->timeout_s, "Time limit of one repetition in seconds")
       ->check(timeout_range());
   options

@@ -1,6 +1,9 @@
 #include "benchmarks/cli/run_folder.hpp"
 
+#include <iostream>
+
 #include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/words.hpp"
 #include "benchmarks/metrics/metric_table.hpp"
 #include "benchmarks/record/kept_polygons.hpp"
 #include "benchmarks/record/pictures.hpp"
@@ -19,8 +22,18 @@ void check_run_folder(const fs::path& folder) {
   }
 }
 
+std::size_t say_plans_without_run(const fs::path& folder) {
+  const std::vector<std::string> names = record::plans_without_run(folder);
+  if (!names.empty()) {
+    std::cerr << "hullbench: of the suite in " << folder.string()
+              << " these plans were not started: " << join_words(names) << "\n";
+  }
+  return names.size();
+}
+
 std::vector<json> reports_in(const fs::path& folder) {
   check_run_folder(folder);
+  say_plans_without_run(folder);
   return record::is_suite(folder) ? report::suite_reports(folder) : std::vector{report::make_report(folder)};
 }
 

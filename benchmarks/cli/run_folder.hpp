@@ -1,6 +1,7 @@
 // The folders of runs, as the commands read and finish them.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <vector>
 
@@ -11,6 +12,10 @@ namespace hullbench::cli {
 
 /// Throws ConfigurationError unless `folder` is one.
 void check_run_folder(const fs::path& folder);
+
+/// Says on standard error which plans of the suite in `folder`, if it is one, were not started. Returns how
+/// many.
+std::size_t say_plans_without_run(const fs::path& folder);
 
 /// The reports in `folder`, that of a run or of a suite. Throws as check_run_folder().
 std::vector<json> reports_in(const fs::path& folder);

@@ -183,6 +183,8 @@ json parse_json(const std::string& text, const std::string& source) {
     return json::parse(text);
   } catch (const json::parse_error& error) {
     throw ConfigurationError(source + " is not JSON: mend it at " + place_of_byte(text, error.byte));
+  } catch (const json::out_of_range&) {
+    throw ConfigurationError(source + " has a number that is too large for a double; give a smaller one");
   }
 }
 
@@ -251,8 +253,10 @@ Plan parse_plan(const std::string& text, const std::string& source) {
 }
 
 Plan load_plan(const std::string& name_or_path, const fs::path& folder) {
-  const bool is_path = name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".json");
-  const fs::path path = is_path ? fs::path(name_or_path) : folder / (name_or_path + ".json");
+  const fs::path known = folder / (name_or_path + ".json");
+  const bool is_path = name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".json") ||
+                       (!fs::exists(known) && fs::is_regular_file(name_or_path));
+  const fs::path path = is_path ? fs::path(name_or_path) : known;
   const std::optional<std::string> text = read_text_file(path);
   if (!text) {
     const std::vector<std::string> names = plan_names(folder);

@@ -12,9 +12,9 @@ namespace {
 json parse_line(const std::string& line, const fs::path& path, std::size_t number) {
   try {
     return json::parse(line);
-  } catch (const json::parse_error& error) {
-    throw std::runtime_error("Line " + std::to_string(number) + " of " + path.string() +
-                             " is not JSON: " + error.what() + ".");
+  } catch (const json::exception&) {
+    throw std::runtime_error("line " + std::to_string(number) + " of " + path.string() + " is not JSON; " +
+                             kDeleteLine);
   }
 }
 
@@ -29,8 +29,10 @@ JsonLines load_json_lines(const fs::path& path) {
   for (std::size_t end = content.find('\n'); end != std::string::npos; end = content.find('\n', begin)) {
     ++number;
     const std::string line = content.substr(begin, end - begin);
-    if (line.find_first_not_of(" \t\r") != std::string::npos)
+    if (line.find_first_not_of(" \t\r") != std::string::npos) {
       result.lines.push_back(parse_line(line, path, number));
+      result.numbers.push_back(number);
+    }
     begin = end + 1;
   }
   result.complete_bytes = begin;

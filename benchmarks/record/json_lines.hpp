@@ -2,6 +2,7 @@
 // killed loses at most the line it was writing.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -15,12 +16,16 @@ namespace hullbench::record {
 /// What a JSON lines file holds.
 struct JsonLines {
   std::vector<json> lines;
+  std::vector<std::size_t> numbers;  ///< of each, from 1 on: empty lines count
   /// The bytes after the last line feed, when the writer was interrupted in the middle of a line; empty
   /// otherwise. They are no line, even when they happen to be JSON: a number cut short is still a number.
   std::string torn;
   /// Number of bytes up to and with the last line feed: where the next line belongs.
   std::uintmax_t complete_bytes = 0;
 };
+
+/// What is said to do with a line that cannot be read.
+inline constexpr const char* kDeleteLine = "delete the line to keep the others";
 
 /// Reads `path`, compressed by xz when its name ends in .xz. A file that does not exist has no lines; empty
 /// lines are skipped. Throws std::runtime_error naming the file and the line when it cannot be read or when a

@@ -104,8 +104,8 @@ void to_json(json& result, const RunRecord& record) {
 
 void from_json(const json& source, RunRecord& record) {
   if (const int version = source.at("schema_version").get<int>(); version != kSchemaVersion) {
-    throw std::invalid_argument("A record has schema version " + std::to_string(version) +
-                                ", this program reads " + std::to_string(kSchemaVersion) + ".");
+    throw std::invalid_argument("it has schema version " + std::to_string(version) +
+                                ", and this program reads " + std::to_string(kSchemaVersion));
   }
   record = {};
   for_each_required(record, [&](const char* key, auto& member) { source.at(key).get_to(member); });

@@ -19,8 +19,11 @@ json read_run_file(const fs::path& path) {
   try {
     json run = json::parse(in);
     if (!run.is_object()) throw std::runtime_error(path.string() + " does not hold a JSON object.");
-    if (run.value("schema_version", 0) != kSchemaVersion) {
-      throw std::runtime_error(path.string() + " is of another schema version than this program's.");
+    const json version = run.value("schema_version", json());
+    if (version != kSchemaVersion) {
+      throw std::runtime_error(path.string() + " is of another schema version (" + version.dump() +
+                               ") than this program's (" + std::to_string(kSchemaVersion) +
+                               "); use the version of hullbench that made it");
     }
     return run;
   } catch (const json::exception& error) {
@@ -30,24 +33,43 @@ json read_run_file(const fs::path& path) {
 
 }  // namespace
 
-json last_of_each_id(std::vector<json> lines, const fs::path& path) {
+std::vector<RunRecord> records_of(const JsonLines& lines, const fs::path& path) {
+  std::vector<RunRecord> records;
+  records.reserve(lines.lines.size());
+  for (std::size_t i = 0; i < lines.lines.size(); ++i) {
+    try {
+      records.push_back(lines.lines[i].get<RunRecord>());
+    } catch (const std::exception& error) {
+      throw std::runtime_error("line " + std::to_string(lines.numbers[i]) + " of " + path.string() +
+                               " is not a run's record (" + error.what() + "); " + kDeleteLine);
+    }
+  }
+  return records;
+}
+
+json last_of_each_id(JsonLines lines, const fs::path& path) {
   json result = json::array();
   std::map<std::string, std::size_t> places;  // by id, in result
-  for (json& line : lines) {
-    RunRecord record;
-    try {
-      record = line.get<RunRecord>();
-    } catch (const std::exception& error) {
-      throw std::runtime_error("A line of " + path.string() + " is not a run's record: " + error.what());
-    }
-    const auto [place, is_new] = places.emplace(record.id, result.size());
+  const std::vector<RunRecord> records = records_of(lines, path);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const auto [place, is_new] = places.emplace(records[i].id, result.size());
     if (is_new) {
-      result.push_back(std::move(line));
+      result.push_back(std::move(lines.lines[i]));
     } else {
-      result[place->second] = std::move(line);
+      result[place->second] = std::move(lines.lines[i]);
     }
   }
   return result;
+}
+
+std::vector<std::string> plans_without_run(const fs::path& folder) {
+  std::vector<std::string> names;
+  const json suite = read_suite(folder);
+  if (!suite.is_object()) return names;
+  for (const json& plan : suite.at("plans")) {
+    if (!fs::exists(folder / plan.get<std::string>() / kHeaderFile)) names.push_back(plan);
+  }
+  return names;
 }
 
 json load_run(const fs::path& run_directory) {
@@ -55,7 +77,7 @@ json load_run(const fs::path& run_directory) {
   fs::path lines_file = run_directory / kRowsFile;
   if (!fs::exists(lines_file)) lines_file += ".xz";
   JsonLines lines = load_json_lines(lines_file);
-  report["runs"] = last_of_each_id(std::move(lines.lines), lines_file);
+  report["runs"] = last_of_each_id(lines, lines_file);
   // Only a merged run has notes of its own.
   if (!report.contains("notes")) report["notes"] = json::array();
   if (!lines.torn.empty()) report["notes"].push_back(kTornNote);

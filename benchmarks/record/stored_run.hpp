@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "benchmarks/base/names.hpp"
+#include "benchmarks/record/json_lines.hpp"
+#include "benchmarks/record/record.hpp"
 
 namespace hullbench::record {
 
@@ -31,7 +33,13 @@ json load_run(const fs::path& run_directory);
 
 /// The lines of the runs file `path` with each id once: its last line, at the place of its first. Throws
 /// std::runtime_error naming the file when one is not a run's record.
-json last_of_each_id(std::vector<json> lines, const fs::path& path);
+json last_of_each_id(JsonLines lines, const fs::path& path);
+
+/// The lines of `path` as records. Throws std::runtime_error naming the file and the line that is none.
+std::vector<RunRecord> records_of(const JsonLines& lines, const fs::path& path);
+
+/// The plans of the suite in `folder` that have no run yet, as after an interruption.
+std::vector<std::string> plans_without_run(const fs::path& folder);
 
 /// Whether there is a suite in `folder`.
 bool is_suite(const fs::path& folder);

@@ -64,6 +64,7 @@ std::vector<std::string> validate_lines(const fs::path& path) {
       result.push_back("Record " + std::to_string(index + 1) + ": " + fault);
     }
   }
+  if (lines.lines.empty() && lines.torn.empty()) result.emplace_back("It has no record.");
   if (!lines.torn.empty())
     result.emplace_back("The last line is cut short: it does not end with a line feed.");
   return result;
@@ -105,7 +106,7 @@ std::vector<std::string> validate_file(const fs::path& path) {
     if (schema_of_kind(document) != nullptr) return validate_by_kind(document);
     if (path.filename() == "run.json" && document.is_object()) complete_run_description(document);
     return validate_report(document);
-  } catch (const json::parse_error& error) {
+  } catch (const json::exception& error) {
     throw std::runtime_error(path.string() + " is not JSON: " + error.what() + ".");
   }
 }

@@ -73,14 +73,7 @@ RowStore::~RowStore() {
 
 void RowStore::read_rows(const fs::path& file) {
   const std::scoped_lock guard(mutex_);
-  for (const json& line : record::load_json_lines(file).lines) {
-    try {
-      remember(line.get<record::RunRecord>());
-    } catch (const std::exception& error) {
-      throw std::runtime_error("a line of " + file.string() + " is not a run's record (" + error.what() +
-                               "); start anew with another --out, or move the file away");
-    }
-  }
+  for (record::RunRecord& row : record::records_of(record::load_json_lines(file), file)) remember(row);
 }
 
 const record::RunRecord* RowStore::find_row(const std::string& key) const {

@@ -65,8 +65,15 @@ bool holds_run(const fs::path& folder, const json& header) {
 std::unique_ptr<RunDirectory> open_chosen(const json& header, const fs::path& folder, bool force) {
   make_writable_folder(folder);
   if (!force && !holds_run(folder, header) && !holds_no_run_yet(folder)) {
+    const bool is_run = read_header(folder).is_object();
+    if (!is_run && fs::exists(folder / record::kRowsFile)) {
+      throw ConfigurationError(
+          "the output folder " + folder.string() + " has measured rows, but its " + record::kHeaderFile +
+          " cannot be read; put that back, or choose another folder with --out: --force would "
+          "delete the rows");
+    }
     throw ConfigurationError("the output folder " + folder.string() + " holds " +
-                             (read_header(folder).is_object() ? "another run" : "something else than a run") +
+                             (is_run ? "another run" : "something else than a run") +
                              "; choose another one with --out, or overwrite it with --force");
   }
   const int lock = lock_or_throw(folder);

@@ -171,6 +171,7 @@ Attempt MethodSession::run(const LoadedPoints& points, const Parameters& paramet
   // A name of its own for every run: what an earlier run left can never be taken for this one's result.
   const std::string nonce =
       method_.name + "-" + std::to_string(worker_->pid()) + "-" + std::to_string(++run_count_);
+  fs::create_directories(scratch);  // a method may have removed it
   const fs::path result = scratch / ("result-" + nonce + ".wkb");
   const bool watches_memory =
       watch == Watch::kMemory && !info_->capabilities.in_server && worker_->reset_peak_memory();

@@ -174,7 +174,9 @@ ExitCode run_worker(const AdapterEntry& entry) {
   std::unique_ptr<Adapter> adapter;
   while (const std::optional<std::string> line = channel.read_line()) {
     const json request = json::parse(*line, nullptr, false);
-    const std::string kind = request.is_object() ? request.value("request", "") : "";
+    const bool is_request =
+        request.is_object() && request.contains("request") && request["request"].is_string();
+    const std::string kind = is_request ? request["request"].get<std::string>() : "";
     if (kind == "quit") return kExitOk;
     if (kind == "hello") {
       const json reply = guarded([&]() -> json {
@@ -183,10 +185,11 @@ ExitCode run_worker(const AdapterEntry& entry) {
       });
       channel.write_line(reply);
       if (!adapter) return kExitError;
-    } else if (!adapter || kind.empty()) {
-      channel.write_line(
-          error_reply("error", adapter ? "this is no request" : "the first request must be 'hello'"));
+    } else if (!adapter) {
+      channel.write_line(error_reply("error", "the first request must be 'hello'"));
       return kExitError;
+    } else if (!is_request) {
+      channel.write_line(error_reply("error", "this is no request"));
     } else {
       channel.write_line(guarded([&] { return answer(*adapter, kind, request); }));
     }

@@ -197,9 +197,10 @@ record::Status status_of_kind(const std::string& kind) {
 
 bool speaks_of_memory(const std::string& words) {
   // The last one is the loader's, when not even the program's libraries fit.
-  for (const char* sign : {"bad_alloc", "out of memory", "Out of memory", "Cannot allocate memory",
-                           "insufficient memory", "Could not reserve enough space", "process OOM",
-                           "heap out of memory", "failed to map segment from shared object"}) {
+  for (const char* sign :
+       {"bad_alloc", "out of memory", "Out of memory", "Cannot allocate memory", "insufficient memory",
+        "Could not reserve enough space", "process OOM", "heap out of memory", "MemoryError",
+        "memory allocation of", "failed to map segment from shared object"}) {
     if (words.find(sign) != std::string::npos) return true;
   }
   return false;
