@@ -526,7 +526,8 @@ TEST_F(HullCommandTest, OneAndMaxParts) {
   EXPECT_EQ(shape({"--alpha", "0.3", "--one"}).size(), 1U);
   EXPECT_EQ(shape({"--alpha", "0.3", "--max-parts", "1"}), MultiPolygon{expected(0.3)[0]});
   EXPECT_EQ(json::parse(hull({points_file(), "--alpha", "0.3", "--one"}).out)["properties"]["parts"], 1);
-  // A limit that keeps no triangle is widened, too.
+  // If no triangle is kept, each point is a part.
+  EXPECT_EQ(shape({"--alpha", "0.0001", "--one"}), shape({"--alpha", "0.0001", "--one", "--cover"}));
   EXPECT_EQ(shape({"--alpha", "0.0001", "--one"}).size(), 1U);
   const Outcome chosen = succeeded(hull({points_file(), "--detail", "30", "--one"}));
   EXPECT_EQ(json::parse(chosen.out)["properties"]["parts"], 1);

@@ -133,11 +133,10 @@ class Widening {
     });
   }
 
-  /// The least factor from `least` on with all polygons that `least` gives in one; where it gives none, with
-  /// one polygon.
+  /// The least factor from `least` on with all polygons that `least` gives in one.
   double one(double least) {
     const IndexedMultiPolygon parts = shape(least);
-    if (parts.polygon_count() == 1 || !extractor_.has_triangles()) return least;
+    if (parts.polygon_count() < 2) return least;
     return least_factor(least, [&](double factor) {
       const IndexedMultiPolygon& wider = shape(factor);
       return wider.polygon_count() == 1 || polygon_with_all(parts, wider).has_value();
@@ -178,7 +177,9 @@ class Widening {
 WidenedHull widened_hull(Extractor& extractor, std::span<const Point> points, const Options& options,
                          const Wanted& wanted, const std::function<void()>& on_step) {
   Widening widening(extractor, points, options, on_step);
-  const double covering = wanted.cover ? widening.cover() : 1;
+  double covering = wanted.cover ? widening.cover() : 1;
+  // Where no triangle is kept, each point is a part.
+  if (wanted.one && !wanted.cover && widening.shape(1).polygon_count() == 0) covering = widening.cover();
   const double factor = wanted.one ? widening.one(covering) : covering;
   const IndexedMultiPolygon parts = wanted.one ? widening.shape(covering) : IndexedMultiPolygon();
   const IndexedMultiPolygon& shape = widening.shape(factor);

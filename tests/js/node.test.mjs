@@ -174,6 +174,8 @@ test("errors say what the core says, and leave the module in order", () => {
       RangeError,
       /^coordinates span more than a factor of/,
     ],
+    [() => concaveHull(points, 2), TypeError, /^options must be an object, such as \{ detail: 2 \}/],
+    [() => concaveHull(points, null), TypeError, /^options must be an object/],
     [() => concaveHull(points, { aplha: 1 }), TypeError, /^there is no option 'aplha': there are detail, alpha/],
     [() => concaveHull(new Float64Array(5)), TypeError, /length is odd/],
     [() => concaveHull("points"), TypeError, /^points must be an array/],

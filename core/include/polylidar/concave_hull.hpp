@@ -74,7 +74,7 @@ struct Options {
 struct Wanted {
   bool cover = false;  ///< no point is outside
   /// What the limit gave before is in one polygon, and only that one is kept. A wider limit may add parts
-  /// that lie apart from it; these are dropped.
+  /// that lie apart from it; these are dropped. If the limit gave nothing, that polygon covers all points.
   bool one = false;
 
   /// Field by field.

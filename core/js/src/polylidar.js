@@ -27,6 +27,7 @@ function flattened(points) {
 }
 
 function checked(options) {
+  if (typeof options !== "object" || options === null) throw new TypeError("options must be an object, such as { detail: 2 }");
   for (const name of Object.keys(options)) {
     if (!OPTIONS.includes(name)) throw new TypeError(`there is no option '${name}': there are ${OPTIONS.join(", ")}`);
   }
