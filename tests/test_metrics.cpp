@@ -16,7 +16,6 @@
 #include "benchmarks/metrics/metric_table.hpp"
 #include "benchmarks/metrics/metrics.hpp"
 #include "benchmarks/metrics/segment_tree.hpp"
-#include "benchmarks/metrics/triangle_outline.hpp"
 #include "datasets/datasets.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "tests/boost_checks.hpp"
@@ -378,61 +377,12 @@ TEST(Agreement, OfAWindowIsTheIoUWithIt) {
   EXPECT_FALSE(metrics::describe(cell_centres(), kBowTie, kSquare).convex_hull_share.has_value());
 }
 
-TEST(TriangleOutline, IsValidAndAsLargeAsItsTriangles) {
-  for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    SCOPED_TRACE(seed);
-    Random random(seed);
-    std::vector<Point> points;
-    for (int i = 0; i < 120; ++i) {
-      // On a lattice every second time: many equal points and cocircular ones.
-      if (seed % 2 == 0) points.push_back({random.integer(6), random.integer(6)});
-      if (seed % 2 == 1) points.push_back({random.between(-6, 6), random.between(-6, 6)});
-    }
-    const polylidar::Triangulation mesh = polylidar::delaunay(points);
-    std::vector<bool> kept;
-    double area = 0;
-    for (std::size_t triangle = 0; triangle < mesh.triangles.size() / 3; ++triangle) {
-      kept.push_back(random.unit() < 0.1 + 0.02 * static_cast<double>(seed));
-      const Ring corners = {points[mesh.triangles[3 * triangle]], points[mesh.triangles[3 * triangle + 1]],
-                            points[mesh.triangles[3 * triangle + 2]]};
-      if (kept.back()) area += polylidar::signed_area(corners);
-    }
-    const MultiPolygon outline = metrics::triangle_outline(mesh, points, kept);
-    EXPECT_EQ(metrics::invalid_reason(outline), "");
-    EXPECT_NEAR(polylidar::area(outline), area, 1e-9);  // sums of some hundred areas below 100
-    EXPECT_EQ(metrics::InputPoints(points).score(outline).vertices_from_input.value_or(1), 1);
-    EXPECT_EQ(metrics::InputPoints(points).score(outline).oriented.value_or(true), true);
-  }
-}
-
 // Points on an outline only make triangles so flat that the sign of their area is one of rounding.
-TEST(TriangleOutline, OfSliversHasAShellForEach) {
-  std::size_t shells = 0;
+TEST(Anchors, OfSlivers) {
   for (const char* name : {"ca~boundary:100", "hi~boundary:100"}) {
-    const std::vector<Point> points = make_point_set(name, false, 2000, 1).points;
-    const polylidar::Triangulation mesh = polylidar::delaunay(points);
-    for (std::size_t triangle = 0; triangle < mesh.triangles.size() / 3; ++triangle) {
-      std::vector<bool> kept(mesh.triangles.size() / 3, false);
-      kept[triangle] = true;
-      const MultiPolygon outline = metrics::triangle_outline(mesh, points, kept);
-      ASSERT_EQ(outline.size(), 1U);
-      ASSERT_EQ(outline[0].shell.size(), 3U) << name << ", triangle " << triangle;
-      ASSERT_TRUE(outline[0].holes.empty());
-      ++shells;
-    }
     const PointSet set = make_point_set(name, false, 2000, 1);
     EXPECT_TRUE(metrics::CaseScorer(set.points, set.ground_truth).score({}).area.valid);
   }
-  EXPECT_GT(shells, 4000U);
-}
-
-TEST(TriangleOutline, OfAllTrianglesIsTheConvexHull) {
-  const std::vector<Point> points = cell_centres();
-  const polylidar::Triangulation mesh = polylidar::delaunay(points);
-  const MultiPolygon hull =
-      metrics::triangle_outline(mesh, points, std::vector<bool>(mesh.triangles.size() / 3, true));
-  ASSERT_EQ(hull.size(), 1U);
-  EXPECT_EQ(polylidar::area(hull), 81);
 }
 
 TEST(Metrics, OfNothing) {

@@ -39,11 +39,7 @@ struct Arguments {
   std::size_t blocks = 32;
   int time_limit = 110;  ///< seconds; a gate is to end within two minutes
   int repeats = 5;
-  bool median = false;
   bool instructions = false;
-  double threshold = 0;  ///< 0: the tier's own
-  double accuracy_tolerance = 1e-9;
-  std::uint64_t seed = 1;
 };
 
 void add_options(CLI::App& app, Arguments& arguments) {
@@ -67,18 +63,8 @@ void add_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--repeats", arguments.repeats, "Timed calls of every case in a process")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  app.add_flag("--median", arguments.median,
-               "A process's estimate is the median of its repeats, not the least");
   app.add_flag("--instructions", arguments.instructions,
                "Count instructions with callgrind instead of timing");
-  app.add_option("--threshold", arguments.threshold,
-                 "Share that is a regression: 0.05, or 0.02 of instructions")
-      ->check(CLI::Range(1e-6, 10.0));
-  app.add_option("--accuracy-tolerance", arguments.accuracy_tolerance,
-                 "Symmetric difference over base's area that is still the same result")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  app.add_option("--seed", arguments.seed, "Of the orders in which the programs run")->capture_default_str();
 }
 
 ProbeSettings probe_settings(const Arguments& arguments, const fs::path& work) {
@@ -86,7 +72,6 @@ ProbeSettings probe_settings(const Arguments& arguments, const fs::path& work) {
   settings.cases_folder = work / "cases";
   settings.cases = arguments.instructions ? instruction_cases() : time_cases();
   settings.repeats = arguments.repeats;
-  settings.median = arguments.median;
   const std::vector<int> cores = allowed_cores();
   if (!cores.empty()) settings.core = cores.back();
   return settings;
@@ -131,7 +116,6 @@ GateFindings measure(const Arguments& arguments, Clock::time_point start, const 
                                                                .probe = probe,
                                                                .blocks = arguments.blocks,
                                                                .deadline = deadline,
-                                                               .seed = arguments.seed,
                                                                .on_process = show},
                                                               rules, samples);
   findings.accuracy = compare_results(probe.cases, work / "results" / "base", work / "results" / "head");
@@ -143,10 +127,7 @@ ExitCode run(const Arguments& arguments) {
   const fs::path out = arguments.out;
   fs::create_directories(out);
   GateRules rules;
-  rules.threshold = arguments.threshold > 0  ? arguments.threshold
-                    : arguments.instructions ? kInstructionThreshold
-                                             : kTimeThreshold;
-  rules.accuracy_tolerance = arguments.accuracy_tolerance;
+  rules.threshold = arguments.instructions ? kInstructionThreshold : kTimeThreshold;
   GateContext context;
   context.tier = arguments.instructions ? "instructions" : "time";
   context.base = arguments.base_name;

@@ -10,7 +10,6 @@
 
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/names.hpp"
-#include "benchmarks/statistics/statistics.hpp"
 #include "benchmarks/worker/worker_process.hpp"
 
 namespace hullbench::gate {
@@ -44,9 +43,8 @@ json answer_of(const std::vector<std::string>& command, const ProbeSettings& set
   return reply.body;
 }
 
-double estimate(const Nanoseconds& times, bool median_of_repeats) {
+double least(const Nanoseconds& times) {
   if (times.empty()) throw std::runtime_error("a probe gave no times");
-  if (median_of_repeats) return statistics::median(times);
   return static_cast<double>(*std::ranges::min_element(times));
 }
 
@@ -81,11 +79,11 @@ ProbeTimes run_probe(const fs::path& program, const ProbeSettings& settings) {
     const auto outline = measured.at("outline").get<Nanoseconds>();
     if (whole.size() != outline.size()) throw std::runtime_error("a probe's steps differ in number");
     for (std::size_t i = 0; i < whole.size(); ++i) whole[i] += outline[i];
-    times.ns["concave_hull " + entry.name] = estimate(whole, settings.median);
-    times.ns["outline " + entry.name] = estimate(outline, settings.median);
+    times.ns["concave_hull " + entry.name] = least(whole);
+    times.ns["outline " + entry.name] = least(outline);
     if (entry.once) {
       times.ns["concave_hull_once " + entry.name] =
-          estimate(measured.at("concave_hull_once").get<Nanoseconds>(), settings.median);
+          least(measured.at("concave_hull_once").get<Nanoseconds>());
     }
     times.results[entry.name] = measured.at("result").get<std::string>();
   }

@@ -23,7 +23,6 @@ struct ProbeSettings {
   std::filesystem::path cases_folder;
   std::vector<GateCase> cases;
   int repeats = 5;          ///< >= 1, inside a process
-  bool median = false;      ///< the estimate is the repeats' median instead of their minimum
   std::optional<int> core;  ///< the processor core that every probe runs on; none: any
 };
 

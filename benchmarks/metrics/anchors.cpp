@@ -1,49 +1,56 @@
 #include "benchmarks/metrics/anchors.hpp"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
-#include "benchmarks/metrics/triangle_outline.hpp"
+#include "benchmarks/metrics/triangle_areas.hpp"
 #include "polylidar/delaunay.hpp"
 #include "polylidar/point_locator.hpp"
 
 namespace hullbench::metrics {
 namespace {
 
-using polylidar::PointLocator;
-using polylidar::Triangulation;
+using TriangleCorners = std::array<Point, 3>;
 
-std::vector<bool> triangles_within(const Triangulation& mesh, std::span<const Point> points,
-                                   const MultiPolygon& truth) {
-  const PointLocator locator(truth);
-  std::vector<bool> within(mesh.triangles.size() / 3);
-  for (std::size_t triangle = 0; triangle < within.size(); ++triangle) {
-    const Point& a = points[mesh.triangles[3 * triangle]];
-    const Point& b = points[mesh.triangles[3 * triangle + 1]];
-    const Point& c = points[mesh.triangles[3 * triangle + 2]];
-    within[triangle] = locator.contains({(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3});
+std::vector<TriangleCorners> delaunay_triangles(std::span<const Point> points) {
+  const polylidar::Triangulation mesh = polylidar::delaunay(points);
+  std::vector<TriangleCorners> triangles;
+  triangles.reserve(mesh.triangles.size() / 3);
+  for (std::size_t corner = 0; corner < mesh.triangles.size(); corner += 3) {
+    triangles.push_back({points[mesh.triangles[corner]], points[mesh.triangles[corner + 1]],
+                         points[mesh.triangles[corner + 2]]});
   }
-  return within;
+  return triangles;
 }
 
-/// Of a valid `shape`.
-double l2_of(const GeosSession& geos, const MultiPolygon& shape, const PreparedTruth& truth,
-             const GeosSession::Geometry& truth_geometry) {
-  const double common = geos.common_area(geos.make_multi_polygon(shape), truth_geometry);
-  return std::max(0.0, polylidar::area(shape) + truth.area() - 2 * common) / truth.area();
-}
+/// The area of a union of triangles, and how much of it lies in the truth.
+struct UnionOfTriangles {
+  double area = 0;
+  double in_truth = 0;
+
+  void add(const TriangleCorners& triangle, double within) {
+    area += polylidar::signed_area(triangle);
+    in_truth += within;
+  }
+  double l2(double truth_area) const { return std::max(0.0, area + truth_area - 2 * in_truth) / truth_area; }
+};
 
 }  // namespace
 
 Anchors find_anchors(std::span<const Point> points, const MultiPolygon& truth,
                      const PreparedTruth& prepared) {
-  const Triangulation mesh = polylidar::delaunay(points);
-  const std::vector<bool> all(mesh.triangles.size() / 3, true);
-  const std::vector<bool> within = triangles_within(mesh, points, truth);
-  const GeosSession geos;
-  const GeosSession::Geometry geometry = prepared.geometry(geos);
-  return {l2_of(geos, triangle_outline(mesh, points, all), prepared, geometry),
-          l2_of(geos, triangle_outline(mesh, points, within), prepared, geometry)};
+  const std::vector<TriangleCorners> triangles = delaunay_triangles(points);
+  const std::vector<double> within = areas_within(triangles, truth);
+  const polylidar::PointLocator locator(truth);
+  UnionOfTriangles convex_hull;
+  UnionOfTriangles best;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto& [a, b, c] = triangles[t];
+    convex_hull.add(triangles[t], within[t]);
+    if (locator.contains({(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3})) best.add(triangles[t], within[t]);
+  }
+  return {convex_hull.l2(prepared.area()), best.l2(prepared.area())};
 }
 
 std::optional<double> skill(const std::optional<double>& l2, const Anchors& anchors, std::size_t points) {

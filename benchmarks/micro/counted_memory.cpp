@@ -43,14 +43,6 @@ void* allocate(std::size_t size, std::size_t alignment = __STDCPP_DEFAULT_NEW_AL
   }
 }
 
-void* allocate_or_null(std::size_t size, std::size_t alignment = __STDCPP_DEFAULT_NEW_ALIGNMENT__) noexcept {
-  try {
-    return allocate(size, alignment);
-  } catch (const std::bad_alloc&) {
-    return nullptr;
-  }
-}
-
 void release(void* block) noexcept {
   if (counting.load(std::memory_order_relaxed)) [[unlikely]] {
     live.fetch_sub(static_cast<std::int64_t>(malloc_usable_size(block)));
@@ -76,64 +68,22 @@ std::int64_t CountedMemory::peak() const {
 
 }  // namespace hullbench::micro
 
-// The whole set that [new.delete] lets a program replace.
+// By [new.delete] the forms for arrays and those that do not throw call these.
 void* operator new(std::size_t size) {
-  return hullbench::micro::allocate(size);
-}
-void* operator new[](std::size_t size) {
   return hullbench::micro::allocate(size);
 }
 void* operator new(std::size_t size, std::align_val_t alignment) {
   return hullbench::micro::allocate(size, static_cast<std::size_t>(alignment));
 }
-void* operator new[](std::size_t size, std::align_val_t alignment) {
-  return hullbench::micro::allocate(size, static_cast<std::size_t>(alignment));
-}
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  return hullbench::micro::allocate_or_null(size);
-}
-void* operator new[](std::size_t size, const std::nothrow_t&) noexcept {
-  return hullbench::micro::allocate_or_null(size);
-}
-void* operator new(std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
-  return hullbench::micro::allocate_or_null(size, static_cast<std::size_t>(alignment));
-}
-void* operator new[](std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
-  return hullbench::micro::allocate_or_null(size, static_cast<std::size_t>(alignment));
-}
 void operator delete(void* block) noexcept {
-  hullbench::micro::release(block);
-}
-void operator delete[](void* block) noexcept {
   hullbench::micro::release(block);
 }
 void operator delete(void* block, std::size_t) noexcept {
   hullbench::micro::release(block);
 }
-void operator delete[](void* block, std::size_t) noexcept {
-  hullbench::micro::release(block);
-}
 void operator delete(void* block, std::align_val_t) noexcept {
   hullbench::micro::release(block);
 }
-void operator delete[](void* block, std::align_val_t) noexcept {
-  hullbench::micro::release(block);
-}
 void operator delete(void* block, std::size_t, std::align_val_t) noexcept {
-  hullbench::micro::release(block);
-}
-void operator delete[](void* block, std::size_t, std::align_val_t) noexcept {
-  hullbench::micro::release(block);
-}
-void operator delete(void* block, const std::nothrow_t&) noexcept {
-  hullbench::micro::release(block);
-}
-void operator delete[](void* block, const std::nothrow_t&) noexcept {
-  hullbench::micro::release(block);
-}
-void operator delete(void* block, std::align_val_t, const std::nothrow_t&) noexcept {
-  hullbench::micro::release(block);
-}
-void operator delete[](void* block, std::align_val_t, const std::nothrow_t&) noexcept {
   hullbench::micro::release(block);
 }
