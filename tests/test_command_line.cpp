@@ -216,13 +216,13 @@ TEST_F(CommandLineTest, FullDisk) {
 TEST_F(CommandLineTest, FullStandardOutput) {
   succeeded(hullbench({"run", plan({500}, 1), "--out", "run"}));
   for (const std::string words :
-       {"list", "metrics --json", "tables run", "league run", "--help", "run small.json --dry-run"}) {
+       {"metrics --json", "tables run", "league run", "--help", "run small.json --dry-run"}) {
     expect_end(run_program({"/bin/sh", "-c", std::string("'") + HULLBENCH + "' " + words + " > /dev/full"},
                            in_folder()),
                1, "cannot write standard output; is the disk full?");
   }
-  const Outcome closed =
-      run_program({"/bin/sh", "-c", std::string("'") + HULLBENCH + "' list --json | head -c 1"}, in_folder());
+  const Outcome closed = run_program(
+      {"/bin/sh", "-c", std::string("'") + HULLBENCH + "' metrics --json | head -c 1"}, in_folder());
   EXPECT_EQ(closed.err, "") << "whoever reads has enough";
 }
 

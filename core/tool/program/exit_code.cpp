@@ -3,8 +3,8 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <exception>
-#include <iostream>
 
 #include "tool/program/configuration_error.hpp"
 #include "tool/program/interrupt.hpp"
@@ -27,7 +27,8 @@ ExitCode exit_code_of(const std::string& program, std::ostream& err, const std::
   };
   try {
     const ExitCode code = work();
-    if (std::cout.flush() || has_nobody_who_reads()) return code;
+    const bool is_written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+    if (is_written || has_nobody_who_reads()) return code;
     return complain("cannot write standard output; is the disk full?", kExitError);
   } catch (const ConfigurationError& error) {
     return complain(error.what(), kExitUsage);
