@@ -87,6 +87,8 @@ export async function assert_readable(page, screenshot, other_width) {
   await page.screenshot({ path: output(`${screenshot}.png`), fullPage: true });
   assert.deepEqual(await axe_findings(page), []);
   await page.setViewportSize({ width: other_width, height: 900 });
+  // Charts are drawn anew when they hear of it.
+  await page.evaluate(() => new Promise((done) => setTimeout(() => requestAnimationFrame(done), 300)));
   await assert_fits();
 }
 
