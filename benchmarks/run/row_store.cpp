@@ -13,6 +13,7 @@
 
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/files.hpp"
+#include "benchmarks/record/stored_run.hpp"
 
 namespace hullbench::run {
 namespace {

@@ -397,7 +397,7 @@ class UnionRun {
     const PointFile file = read_point_file(path, options);
     facts.add(file.classes);
     notes_[place] = file.note;
-    const Crs crs = chosen_crs(command_.shape, file.crs);
+    Crs crs = chosen_crs(command_.shape, file.crs);
     check_degrees(crs, facts.bounds);
     return crs;
   }

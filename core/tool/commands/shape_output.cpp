@@ -71,10 +71,9 @@ bool names_polygons(const std::string& path) {
 }
 
 void check_is_none_of(const std::string& out, std::span<const std::string> inputs) {
-  static const std::string kStandardInput = "/dev/stdin";
   std::error_code error;
   for (const std::string& input : inputs) {
-    const std::string& read = input == "-" ? kStandardInput : input;
+    const std::string read = input == "-" ? "/dev/stdin" : input;
     if (std::filesystem::is_regular_file(out, error) && std::filesystem::equivalent(out, read, error)) {
       throw ConfigurationError("--out " + out + " would replace the points that are read; give another file");
     }
