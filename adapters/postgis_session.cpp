@@ -163,7 +163,7 @@ PostgisConnection::PostgisConnection(const PostgisServer& server,
   } else {
     dsn_ = named;
   }
-  open();
+  connect();
 }
 
 void PostgisConnection::start_private_server() {
@@ -173,16 +173,21 @@ void PostgisConnection::start_private_server() {
 
 bool PostgisConnection::reopen_if_lost() {
   if (session_->is_open()) return false;
-  if (is_private_) {
+  session_.emplace(dsn_);
+  if (is_private_ && !session_->is_open()) {  // the whole server has died
+    start_private_server();
     session_.emplace(dsn_);
-    if (!session_->is_open()) start_private_server();  // the whole server has died
   }
-  open();
+  check_session();
   return true;
 }
 
-void PostgisConnection::open() {
+void PostgisConnection::connect() {
   session_.emplace(dsn_);
+  check_session();
+}
+
+void PostgisConnection::check_session() {
   if (!session_->is_open()) throw_no_connection();
   if (!find_extension(*session_)) {
     throw NotInstalled(

@@ -99,7 +99,8 @@ class PostgisConnection {
   bool reopen_if_lost();
 
  private:
-  void open();
+  void connect();
+  void check_session();
   void start_private_server();
   [[noreturn]] void throw_no_connection() const;
 

@@ -281,6 +281,22 @@ TEST_F(CommandLineTest, NumbersThatAreNone) {
   expect_end(hullbench({"validate", "none.jsonl"}), 1, "It has no record.");
 }
 
+TEST_F(CommandLineTest, AWorkerAnswersWhatIsNoRequestAndGoesOn) {
+  const std::string requests =
+      R"({"request":"hello"}\n{"request":5}\n[]\n{"request":"dance"}\n{"request":"quit"}\n)";
+  const Outcome outcome = succeeded(run_program(
+      {"/bin/sh", "-c",
+       std::string("printf '") + requests + "' | '" + HULLBENCH + "' worker --method convex_hull"},
+      in_folder()));
+  std::istringstream lines(outcome.out);
+  std::vector<json> replies;
+  for (std::string line; std::getline(lines, line);) replies.push_back(json::parse(line));
+  ASSERT_EQ(replies.size(), 4U) << outcome.out;
+  EXPECT_TRUE(replies[0].contains("method"));
+  for (const std::size_t odd : {1U, 2U}) EXPECT_EQ(replies[odd]["error"]["message"], "this is no request");
+  EXPECT_EQ(replies[3]["error"]["message"], "unknown request 'dance'");
+}
+
 TEST_F(CommandLineTest, APlansFileNeedsNoEnding) {
   fs::copy_file(plan({500}, 1), folder() / "my_plan");
   EXPECT_EQ(succeeded(hullbench({"run", "my_plan", "--dry-run"})).out,

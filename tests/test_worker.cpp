@@ -379,6 +379,18 @@ TEST(WorkerProcess, KeepsALowerLimitOfTheHarness) {
   EXPECT_EQ(status, 0);
 }
 
+// Python says so without a reply, by a traceback.
+TEST(WorkerProcess, APythonWithoutMemoryLacksMemory) {
+  worker::WorkerProcess worker({SYSTEM_PYTHON, "-c", "input(); bytes(8 << 30)"}, {512, std::nullopt});
+  EXPECT_EQ(to_string(worker.request({{"request", "hello"}}, 30s).status), "memory");
+}
+
+TEST_F(MethodSessionTest, AScratchFolderThatAMethodRemovedIsMadeAgain) {
+  start(method_of("good", misbehaving("good")));
+  const worker::Attempt result = session_->run(square(), {{"size", 1}}, folder_.path() / "gone", 30s);
+  EXPECT_EQ(to_string(result.status), "ok") << result.detail;
+}
+
 TEST(WorkerProcess, EndsWithItsInput) {
   worker::WorkerProcess worker(misbehaving("good"), {});
   const pid_t pid = worker.pid();
