@@ -411,11 +411,6 @@ TEST(InteriorLeftOut, FindsAHoleWhoseRadiusIsTheLimit) {
   EXPECT_GT(none, 100U);
 }
 
-double circumradius(const Point& a, const Point& b, const Point& c) {
-  const double cross = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-  return testing::distance(a, b) * testing::distance(b, c) * testing::distance(c, a) / (2 * cross);
-}
-
 // A limit that is some triangle's own size up to rounding: the answer depends on the corner where the
 // arithmetic starts, and then the whole way is gone.
 TEST(InteriorLeftOut, LeavesToTheWholeWayWhatRoundingDecides) {
@@ -430,7 +425,7 @@ TEST(InteriorLeftOut, LeavesToTheWholeWayWhatRoundingDecides) {
     for (int i = 0; i < 20; ++i) {
       const std::size_t t = 3 * random.below(triangulation.triangles.size() / 3);
       const auto corner = [&](std::size_t k) { return points[triangulation.triangles[t + k]]; };
-      const double radius = circumradius(corner(0), corner(1), corner(2));
+      const double radius = testing::circumradius(corner(0), corner(1), corner(2));
       if (radius < 1.5 * spacing || radius > 20 * spacing) continue;
       compare(ways, points, {.alpha = radius}, counts);
     }
@@ -658,6 +653,8 @@ TEST(InteriorLeftOut, TheRestIsTriangulatedWhenItIsAskedFor) {
   for (const double alpha : {0.01, 0.02}) {
     extractor.extract(points, options);
     extractor.extract_regions({.alpha = alpha});
+    EXPECT_EQ(extractor.statistics().way, Way::kWhole);
+    EXPECT_EQ(extractor.statistics().triangulated_points, points.size());
     steps.extract_regions({.alpha = alpha});
     EXPECT_EQ(extractor.extract_polygons(), steps.extract_polygons());
     EXPECT_EQ(extractor.count_triangles(), steps.count_triangles());

@@ -103,6 +103,24 @@ Points lattice_with_holes(int side) {
   return points;
 }
 
+// `shape` is what `extractor` has just made of the points.
+void expect_as_in_memory(const StreamedHull& hull, const Points& points, const Extractor& extractor,
+                         const IndexedMultiPolygon& shape) {
+  EXPECT_EQ(hull.polygons, to_coordinates(shape, points));
+  EXPECT_TRUE(
+      std::equal(hull.vertices.begin(), hull.vertices.end(), shape.vertices.begin(), shape.vertices.end()));
+  EXPECT_EQ(hull.points, points.size());
+  EXPECT_EQ(hull.box, bounding_box(points));
+  EXPECT_EQ(hull.chosen_sizes, extractor.chosen_sizes());
+  EXPECT_EQ(hull.by_outlines, extractor.statistics().by_outlines);
+}
+
+void expect_as_in_memory(const StreamedHull& hull, const Points& points, const Options& options) {
+  Extractor extractor;
+  const IndexedMultiPolygon& shape = extractor.extract(points, options);
+  expect_as_in_memory(hull, points, extractor, shape);
+}
+
 TEST(Stream, GivesTheShapeOfThePointsInMemory) {
   std::size_t rings = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
@@ -119,17 +137,13 @@ TEST(Stream, GivesTheShapeOfThePointsInMemory) {
     if (seed % 4 == 3) options.max_edge_length = 6 * spacing;
     options.fill_single_triangles = seed % 5 == 0;
     SCOPED_TRACE(seed);
-    const IndexedMultiPolygon shape = concave_hull(points, options);
     MemorySource source(points, 1 + random.below(30'000));
     const StreamedHull hull = source.hull(options);
-    EXPECT_EQ(hull.polygons, to_coordinates(shape, points));
-    EXPECT_TRUE(
-        std::equal(hull.vertices.begin(), hull.vertices.end(), shape.vertices.begin(), shape.vertices.end()));
-    EXPECT_EQ(hull.points, points.size());
+    expect_as_in_memory(hull, points, options);
     EXPECT_LT(hull.triangulated_points, points.size() / 2);
     EXPECT_GE(source.passes(), 3);
     EXPECT_LE(source.passes(), 4);
-    rings += shape.ring_ends.size();
+    for (const Polygon& polygon : hull.polygons) rings += 1 + polygon.holes.size();
   }
   EXPECT_GT(rings, 36U) << "the shapes have holes";
 }
@@ -152,32 +166,10 @@ std::vector<PointSource> sources_of(const Points& points, std::size_t count, std
 
 /// `count` points in a square with round holes, `ratio` times as dense at its right side as at its left.
 Points square_with_holes(std::size_t count, double ratio, std::uint64_t seed) {
-  testing::Random random(seed);
-  Points points;
-  while (points.size() < count) {
-    const Point p{random.between(0, 1), random.between(0, 1)};
+  return testing::points_where(count, seed, 1, 1, [&](const Point& p, testing::Random& random) {
     const bool is_in_hole = std::hypot(p.x - 0.4, p.y - 0.5) < 0.1 || std::hypot(p.x - 0.8, p.y - 0.2) < 0.05;
-    if (!is_in_hole && random.between(0, 1) * ratio < 1 + (ratio - 1) * p.x) points.push_back(p);
-  }
-  return points;
-}
-
-// `shape` is what `extractor` has just made of the points.
-void expect_as_in_memory(const StreamedHull& hull, const Points& points, const Extractor& extractor,
-                         const IndexedMultiPolygon& shape) {
-  EXPECT_EQ(hull.polygons, to_coordinates(shape, points));
-  EXPECT_TRUE(
-      std::equal(hull.vertices.begin(), hull.vertices.end(), shape.vertices.begin(), shape.vertices.end()));
-  EXPECT_EQ(hull.points, points.size());
-  EXPECT_EQ(hull.box, bounding_box(points));
-  EXPECT_EQ(hull.chosen_sizes, extractor.chosen_sizes());
-  EXPECT_EQ(hull.by_outlines, extractor.statistics().by_outlines);
-}
-
-void expect_as_in_memory(const StreamedHull& hull, const Points& points, const Options& options) {
-  Extractor extractor;
-  const IndexedMultiPolygon& shape = extractor.extract(points, options);
-  expect_as_in_memory(hull, points, extractor, shape);
+    return !is_in_hole && random.between(0, 1) * ratio < 1 + (ratio - 1) * p.x;
+  });
 }
 
 TEST(Stream, ChoosesTheSizesThatAreChosenInMemory) {
@@ -565,6 +557,12 @@ TEST(StreamShards, SayWhyTheyDoNotFitTogether) {
   EXPECT_EQ(damaged([](StreamShard& s) { s.points[5] = {3, 3}; }), not_one_source);
   EXPECT_EQ(damaged([](StreamShard& s) { s.points[5] = {1e300, 3}; }), not_one_source);
   EXPECT_EQ(damaged([](StreamShard& s) { s.shard.number = 0; }), "there is no shard 0 of 3");
+  StreamShard empty = MemorySource(points).part(options, {1, 1});
+  empty.points.clear();
+  empty.numbers.clear();
+  empty.uncertain.clear();
+  empty.box = bounding_box({});
+  EXPECT_EQ(complaint({&empty, 1}), not_one_source);
   const Points few = testing::uniform_points(100, 26);
   StreamShard whole = MemorySource(few).part({}, {});
   whole.points.pop_back();

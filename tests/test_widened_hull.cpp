@@ -2,6 +2,7 @@
 // the groups of the program (test_group_hulls.cpp).
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <vector>
@@ -44,6 +45,42 @@ TEST(WidenedHull, CoversAllPointsOrIsOneOrBoth) {
     const IndexedMultiPolygon both = concave_hull(points, options, {.cover = true, .one = true});
     EXPECT_EQ(both.polygon_count(), 1U);
     EXPECT_TRUE(covers_all(to_coordinates(both, points), points));
+  }
+}
+
+// Few points in clumps: all parts are small, and are kept as long as none is large. A wider limit joins two
+// of them, and the core would drop the third.
+TEST(WidenedHull, LosesNoSmallPartBesideALargerOne) {
+  std::vector<Point> points;
+  for (const Point& centre : {Point{0, 0}, {4, 0}, {0, 9}}) {
+    points.push_back(centre);
+    for (int k = 0; k < 5; ++k) {
+      const double angle = 2 * 3.141592653589793 * k / 5;
+      points.push_back({centre.x + std::cos(angle), centre.y + std::sin(angle)});
+    }
+  }
+  ASSERT_EQ(concave_hull(points).polygon_count(), 3U);
+  ASSERT_EQ(concave_hull(points, {.detail = 0.6}).polygon_count(), 1U);
+  const IndexedMultiPolygon one = concave_hull(points, {}, {.one = true});
+  EXPECT_EQ(one.polygon_count(), 1U);
+  EXPECT_TRUE(covers_all(to_coordinates(one, points), points));
+  points.push_back({2, 2.5});
+  for (const bool is_one : {false, true}) {
+    const IndexedMultiPolygon shape = concave_hull(points, {}, {.cover = true, .one = is_one});
+    EXPECT_TRUE(covers_all(to_coordinates(shape, points), points)) << is_one;
+  }
+}
+
+// The predicates that say which points are covered need coordinates of a usual magnitude.
+TEST(WidenedHull, IsTheSameForCoordinatesOfAnyMagnitude) {
+  const std::vector<Point> points = two_squares();
+  for (const Wanted& wanted : {Wanted{.cover = true}, Wanted{.one = true}, Wanted{true, true}}) {
+    const IndexedMultiPolygon expected = concave_hull(points, {}, wanted);
+    for (const int exponent : {-900, -600, 600, 1000}) {
+      std::vector<Point> scaled;
+      for (const Point& p : points) scaled.push_back({std::ldexp(p.x, exponent), std::ldexp(p.y, exponent)});
+      EXPECT_EQ(concave_hull(scaled, {}, wanted), expected) << exponent;
+    }
   }
 }
 

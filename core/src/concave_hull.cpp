@@ -118,6 +118,7 @@ void Extractor::State::triangulate_the_rest() {
   if (!is_part) return;
   builder.build(points, pool);
   mesh_is_whole();
+  statistics = {Way::kWhole, points.size(), points.size(), points.size()};
 }
 
 /// From the triangulation of all points.

@@ -27,8 +27,7 @@ struct Magnitudes {
   double poison = 0;            ///< NaN where a coordinate is not finite
 
   void add(const Magnitudes& other) {
-    box.min = {std::min(box.min.x, other.box.min.x), std::min(box.min.y, other.box.min.y)};
-    box.max = {std::max(box.max.x, other.box.max.x), std::max(box.max.y, other.box.max.y)};
+    box = joined(box, other.box);
     largest = std::max(largest, other.largest);
     smallest = std::min(smallest, other.smallest);
     poison += other.poison;
@@ -196,8 +195,7 @@ void RangeOfBlocks::add(std::span<const Point> block) {
 }
 
 void RangeOfBlocks::add(const RangeOfBlocks& more) {
-  box_ = {{std::min(box_.min.x, more.box_.min.x), std::min(box_.min.y, more.box_.min.y)},
-          {std::max(box_.max.x, more.box_.max.x), std::max(box_.max.y, more.box_.max.y)}};
+  box_ = joined(box_, more.box_);
   largest_ = std::max(largest_, more.largest_);
   smallest_ = std::min(smallest_, more.smallest_);
   if (!not_finite_ && more.not_finite_) not_finite_ = count_ + *more.not_finite_;

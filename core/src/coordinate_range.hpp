@@ -42,13 +42,11 @@ class RangeOfBlocks {
   CoordinateRange range() const;
 
  private:
-  Box box_{{kNone, kNone}, {-kNone, -kNone}};
+  Box box_ = bounding_box({});
   double largest_ = 0;
-  double smallest_ = kNone;
+  double smallest_ = std::numeric_limits<double>::infinity();
   std::uint64_t count_ = 0;
   std::optional<std::uint64_t> not_finite_;
-
-  static constexpr double kNone = std::numeric_limits<double>::infinity();
 };
 
 /// Whether all points are finite and in the box, whose corners are finite.

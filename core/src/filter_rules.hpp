@@ -1,6 +1,8 @@
 // What a triangle must satisfy to belong to the shape: each rule is one small object.
 //
-// To add a rule, write a class with `bool keeps(const Triangle&) const` and name it in filter_rules().
+// To add a rule, write a class with `bool keeps(const Triangle&) const` and name it in filter_rules(). Its
+// limit is a member of Options and Limits (options_check.cpp lists them), and least_dropped_radius() in
+// interior.cpp says from which circumradius on it may drop a triangle.
 #pragma once
 
 #include <algorithm>

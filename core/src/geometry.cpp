@@ -18,6 +18,11 @@ Box bounding_box(std::span<const Point> points) {
   return box;
 }
 
+Box joined(const Box& a, const Box& b) {
+  return {{std::min(a.min.x, b.min.x), std::min(a.min.y, b.min.y)},
+          {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y)}};
+}
+
 double signed_area(std::span<const Point> ring) {
   if (ring.size() < 3) return 0;
   // Relative to the first vertex: far from the origin the shoelace terms would cancel.

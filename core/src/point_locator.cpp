@@ -33,9 +33,7 @@ PointLocator::PointLocator(const MultiPolygon& shape) : bounds_(bounding_box({})
 }
 
 void PointLocator::add(const Ring& ring, std::uint32_t polygon, std::vector<Edge>& edges) {
-  const Box box = bounding_box(ring);
-  bounds_ = {{std::min(bounds_.min.x, box.min.x), std::min(bounds_.min.y, box.min.y)},
-             {std::max(bounds_.max.x, box.max.x), std::max(bounds_.max.y, box.max.y)}};
+  bounds_ = joined(bounds_, bounding_box(ring));
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Point& from = ring[i];
     const Point& to = ring[(i + 1) % ring.size()];

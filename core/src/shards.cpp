@@ -128,7 +128,7 @@ PartHull::PartHull(const StreamShard& part, ThreadPool& pool) : part_(part), poo
   RangeOfBlocks blocks;
   blocks.add(part.points);
   // The corners of the convex hull are uncertain, so that the part reaches as far as all points.
-  if (blocks.not_finite() || blocks.box() != part.box) throw do_not_fit();
+  if (count == 0 || blocks.not_finite() || blocks.box() != part.box) throw do_not_fit();
   const CoordinateRange range = blocks.range();
   if (range.scale_exponent != 0) throw do_not_fit();
   builder_.build(part.points, range, pool);

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "coordinate_range.hpp"
 #include "options_check.hpp"
 #include "polylidar/point_locator.hpp"
 
@@ -33,7 +34,7 @@ Options widened(Options options, double factor) {
   return options;
 }
 
-/// The least factor from `least` on for which `holds`, which stays true once it is: to a thousandth.
+/// A factor from `least` on for which `holds`, to a thousandth: the least one if it stays true once it is.
 template <class Holds>
 double least_factor(double least, const Holds& holds) {
   if (holds(least)) return least;
@@ -49,6 +50,17 @@ double least_factor(double least, const Holds& holds) {
     (holds(middle) ? high : low) = middle;
   }
   return high;
+}
+
+/// The points as the predicates can handle them, multiplied by a power of two if need be: into `scaled` then.
+std::span<const Point> for_predicates(std::span<const Point> points, std::vector<Point>& scaled) {
+  detail::RangeOfBlocks range;
+  range.add(points);
+  const int exponent = points.empty() ? 0 : range.range().scale_exponent;
+  if (exponent == 0) return points;
+  scaled.reserve(points.size());
+  for (const Point& p : points) scaled.push_back({std::ldexp(p.x, exponent), std::ldexp(p.y, exponent)});
+  return scaled;
 }
 
 /// The rings of polygon `polygon`, shell first, as [first, last).
@@ -106,8 +118,9 @@ class Widening {
  public:
   Widening(Extractor& extractor, std::span<const Point> points, const Options& options,
            const std::function<void()>& on_step)
-      : extractor_(extractor), points_(points), options_(options), on_step_(on_step) {
-    extractor_.triangulate(points_, options_.threads);
+      : extractor_(extractor), options_(options), on_step_(on_step) {
+    extractor_.triangulate(points, options_.threads);
+    points_ = for_predicates(points, scaled_);
   }
 
   /// Valid until the next one.
@@ -120,15 +133,22 @@ class Widening {
   /// The least factor with every point covered.
   double cover() {
     if (!extractor_.has_triangles()) return 1;
-    std::vector<std::uint32_t> outside(points_.size());
-    std::iota(outside.begin(), outside.end(), 0U);
+    std::vector<std::uint32_t> all(points_.size());
+    std::iota(all.begin(), all.end(), 0U);
+    std::vector<std::uint32_t> outside = all;
     return least_factor(1, [&](double factor) {
       const PointLocator locator(to_coordinates(shape(factor), points_));
-      std::vector<std::uint32_t> left;
-      std::copy_if(outside.begin(), outside.end(), std::back_inserter(left),
-                   [&](std::uint32_t i) { return !locator.contains(points_[i]); });
+      const auto outside_of = [&](const std::vector<std::uint32_t>& some) {
+        std::vector<std::uint32_t> left;
+        std::copy_if(some.begin(), some.end(), std::back_inserter(left),
+                     [&](std::uint32_t i) { return !locator.contains(points_[i]); });
+        return left;
+      };
+      std::vector<std::uint32_t> left = outside_of(outside);
+      // Whoever is covered mostly stays so, but a small part may be dropped beside one that has grown.
+      if (left.empty()) left = outside_of(all);
       if (left.empty()) return true;
-      outside = std::move(left);  // who is covered stays covered
+      outside = std::move(left);
       return false;
     });
   }
@@ -137,13 +157,11 @@ class Widening {
   double one(double least) {
     const IndexedMultiPolygon parts = shape(least);
     if (parts.polygon_count() < 2) return least;
-    return least_factor(least, [&](double factor) {
-      const IndexedMultiPolygon& wider = shape(factor);
-      return wider.polygon_count() == 1 || polygon_with_all(parts, wider).has_value();
-    });
+    return least_factor(least,
+                        [&](double factor) { return polygon_with_all(parts, shape(factor)).has_value(); });
   }
 
-  /// The polygon of `wider` that has all `parts`, which it covers.
+  /// The polygon of `wider` that has all `parts`, if there is one. Each part is in one of them, or gone.
   std::optional<std::size_t> polygon_with_all(const IndexedMultiPolygon& parts,
                                               const IndexedMultiPolygon& wider) const {
     const PointLocator locator(to_coordinates(wider, points_));
@@ -167,7 +185,8 @@ class Widening {
 
  private:
   Extractor& extractor_;
-  std::span<const Point> points_;
+  std::vector<Point> scaled_;      ///< empty unless they differ from the caller's
+  std::span<const Point> points_;  ///< as the predicates can handle them
   Options options_;
   const std::function<void()>& on_step_;
 };

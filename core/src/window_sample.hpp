@@ -68,9 +68,9 @@ class WindowSample {
   /// from rounding, on their position and unit. O(n), a pass or two.
   bool look(const PointPasses& points, const Box& box, const Wanted& wanted, ThreadPool& pool);
 
-  /// After look() returned false for the same points: looks at a window of each place. Returns false if there
-  /// are fewer than kLeastPointsForPlaces, or if the density varies by so much that triangles are often as
-  /// large where the points are sparse as wide ones are where they are densest. The result depends on the
+  /// After look() of the same points, whatever it returned: looks at a window of each place. Returns false if
+  /// there are fewer than kLeastPointsForPlaces, or if the density varies by so much that triangles are often
+  /// as large where the points are sparse as wide ones are where they are densest. The result depends on the
   /// same as that of look(). O(n), a pass.
   bool look_by_places(const PointPasses& points, const WantedPlaces& wanted, ThreadPool& pool);
   /// After look_by_places() returned true, as the next two: place -> what was found in its window, which has

@@ -54,8 +54,9 @@ struct Options {
   std::optional<double> max_perimeter = std::nullopt;
   /// How much detail the outline has if the limit is chosen; > 0 and finite, no unit. Twice the detail halves
   /// the largest size of a triangle: it finds holes and notches half as wide, but also more that are due to
-  /// chance. More detail makes every limit smaller. Only a hole that was open may be filled again where the
-  /// triangles round it have become others. Ignored if a limit is given.
+  /// chance. More detail makes every limit smaller. Two things may come back all the same: the inside of a
+  /// hole, where the triangles round it have become others, and small parts, where no large one is left
+  /// beside them. Ignored if a limit is given.
   double detail = 1;
   /// Whether to keep a triangle beyond a limit if its three neighbours are within it: random points leave
   /// such holes of one triangle by chance. Default: true if the limit is chosen, false if one is given.

@@ -45,6 +45,9 @@ struct Box {
 /// The smallest box round `points`; for no points, min = +infinity and max = -infinity.
 Box bounding_box(std::span<const Point> points);
 
+/// The smallest box round two, either of which may be empty.
+Box joined(const Box& a, const Box& b);
+
 /// The area enclosed by `ring` in squared units, positive when it runs counter-clockwise. Rounded: not a
 /// predicate. 0 for fewer than 3 vertices.
 double signed_area(std::span<const Point> ring);

@@ -35,12 +35,6 @@ constexpr std::uint64_t kWorthStreaming = std::uint64_t{1} << 23U;
 
 using Classes = std::array<std::uint64_t, 256>;
 
-/// The box round two, either of which may be empty.
-Box joined(const Box& a, const Box& b) {
-  return {{std::min(a.min.x, b.min.x), std::min(a.min.y, b.min.y)},
-          {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y)}};
-}
-
 /// What is said of points that are not kept.
 struct Facts {
   std::uint64_t points = 0;
@@ -302,6 +296,7 @@ class IndexRun {
       return {};
     }
     made.crs = chosen_crs(command_.shape, parts[0].crs);
+    made.note = parts[0].note;
     made.facts.add(hull);
     for (const PointFile& part : parts) made.facts.add(part.classes);
     StreamedShape shape = streamed_shape(hull);

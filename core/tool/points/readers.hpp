@@ -17,9 +17,9 @@
 
 namespace polylidar::tool::point_files {
 
-/// Columns of text. `only_blanks`: blanks alone separate them (XYZ). Empty lines and those that begin with #
-/// are passed over. The first row is a header when columns are chosen by name or when no field of it is a
-/// number. A field may stand between double quotes.
+/// Columns of text. `only_blanks`: blanks alone separate them (XYZ). Empty lines are passed over, and before
+/// the first row those that begin with #. The first row is a header when columns are chosen by name or when
+/// no field of it is a number. A field may stand between double quotes.
 void read_columns(BlockReader& reader, bool only_blanks, PointFile& file);
 
 /// The coordinate system is WGS 84 (RFC 7946, 4), or that of a member "crs" as GeoJSON had before.
