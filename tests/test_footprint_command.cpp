@@ -22,19 +22,23 @@
 namespace hullbench::testing {
 namespace {
 
-/// A tile of 100 m with points everywhere but in its lake.
+/// Adds points of a tile of 100 m, everywhere but in its lake, until there are `count`.
+void add_points(LasFile& file, std::size_t count, std::mt19937& random) {
+  while (file.points.size() < count) {
+    const auto x = static_cast<std::int32_t>(random() % 10000);
+    const auto y = static_cast<std::int32_t>(random() % 10000);
+    if (std::hypot(x - 5000, y - 5000) < 2000) continue;
+    file.points.push_back({.x = x, .y = y, .classification = file.points.size() % 4 == 0 ? 6U : 2U});
+  }
+}
+
 LasFile tile(int column) {
   LasFile file;
   file.minor = 4;
   file.format = 6;
   file.offset = {500000.0 + 100 * column, 5600000};
   std::mt19937 random(static_cast<unsigned>(column));
-  while (file.points.size() < 8000) {
-    const auto x = static_cast<std::int32_t>(random() % 10000);
-    const auto y = static_cast<std::int32_t>(random() % 10000);
-    if (std::hypot(x - 5000, y - 5000) < 2000) continue;
-    file.points.push_back({.x = x, .y = y, .classification = file.points.size() % 4 == 0 ? 6U : 2U});
-  }
+  add_points(file, 8000, random);
   file.records = {projected(25832)};
   return file;
 }
@@ -48,8 +52,19 @@ class FootprintCommandTest : public ::testing::Test {
   static Outcome footprint(const std::vector<std::string>& arguments, const ProgramOptions& options = {}) {
     return run_program(joined({POLYLIDAR, "footprint"}, arguments), options);
   }
+  /// Tiles side by side; all their points in `all_`.
+  std::vector<std::string> tiles(int count) {
+    std::vector<std::string> files;
+    for (int column = 0; column < count; ++column) {
+      const LasFile las = tile(column);
+      for (const Point& p : las.places()) all_.push_back(p);
+      files.push_back(file("tile_" + std::to_string(column) + ".las", las.text()));
+    }
+    return files;
+  }
 
   TemporaryFolder folder_;
+  Points all_;
 };
 
 TEST(FileWork, AnInterruptionEndsItBetweenTwoFiles) {
@@ -71,11 +86,7 @@ TEST(FileWork, AnInterruptionEndsItBetweenTwoFiles) {
 }
 
 TEST_F(FootprintCommandTest, AFeatureForEveryFile) {
-  std::vector<std::string> files;
-  files.reserve(5);
-  for (int column = 0; column < 5; ++column) {
-    files.push_back(file("tile_" + std::to_string(column) + ".las", tile(column).text()));
-  }
+  const std::vector<std::string> files = tiles(5);
   const std::string out = (folder_.path() / "index.geojson").string();
   const std::vector<std::string> arguments = joined(files, {"-o", out});
   const Outcome outcome = succeeded(footprint(arguments));
@@ -108,18 +119,27 @@ TEST_F(FootprintCommandTest, AFeatureForEveryFile) {
   EXPECT_EQ(read_text(out), first);
 }
 
+TEST_F(FootprintCommandTest, AStreamTellsOfPointsThatTheHeaderDoesNotCount) {
+  LasFile las = tile(0);
+  std::mt19937 random(6);
+  add_points(las, 300'000, random);
+  las.promised = 299'000;
+  const std::string path = file("more.las", las.text());
+  for (const std::vector<std::string>& options :
+       std::vector<std::vector<std::string>>{{}, {"--min-triangles", "1"}}) {
+    const Outcome outcome = succeeded(footprint(joined(options, {path})));
+    EXPECT_NE(outcome.err.find("there is room for 1000 more"), std::string::npos) << outcome.err;
+  }
+}
+
 TEST_F(FootprintCommandTest, AStreamGivesWhatThePointsInMemoryGive) {
   // Above 8 MiB a LAS file is a stream, but where all triangles are asked for.
   LasFile las = tile(0);
   std::mt19937 random(5);
-  while (las.points.size() < 300'000) {
-    const auto x = static_cast<std::int32_t>(random() % 10000);
-    const auto y = static_cast<std::int32_t>(random() % 10000);
-    if (std::hypot(x - 5000, y - 5000) < 2000) continue;
-    las.points.push_back({.x = x,
-                          .y = y,
-                          .classification = static_cast<unsigned>(random() % 5),
-                          .withheld = random() % 50 == 0});
+  add_points(las, 300'000, random);
+  for (std::size_t i = 8000; i < las.points.size(); ++i) {
+    las.points[i].classification = static_cast<unsigned>(random() % 5);
+    las.points[i].withheld = random() % 50 == 0;
   }
   const std::string large = file("large.las", las.text());
   ASSERT_GT(fs::file_size(large), std::size_t{1} << 23U);
@@ -327,16 +347,6 @@ TEST_F(FootprintCommandTest, UsageErrors) {
 
 class FootprintUnionTest : public FootprintCommandTest {
  protected:
-  /// Tiles side by side; all their points in `all_`.
-  std::vector<std::string> tiles(int count) {
-    std::vector<std::string> files;
-    for (int column = 0; column < count; ++column) {
-      const LasFile las = tile(column);
-      for (const Point& p : las.places()) all_.push_back(p);
-      files.push_back(file("tile_" + std::to_string(column) + ".las", las.text()));
-    }
-    return files;
-  }
   static Outcome unite(const std::vector<std::string>& files, const std::vector<std::string>& options = {}) {
     return footprint(joined(joined(files, {"--union"}), options));
   }
@@ -351,8 +361,6 @@ class FootprintUnionTest : public FootprintCommandTest {
     const std::string all = file("all.csv", rows(all_, ","));
     return json::parse(run_program(joined({POLYLIDAR, "hull", all}, options)).out);
   }
-
-  Points all_;
 };
 
 TEST_F(FootprintUnionTest, IsTheHullOfAllPoints) {

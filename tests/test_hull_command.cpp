@@ -362,10 +362,17 @@ TEST_F(HullCommandTest, UsageErrors) {
   expect_refusal(run_program({POLYLIDAR, "hul"}), 2, "there is no command 'hul' (did you mean hull?)");
   expect_refusal(run_program({POLYLIDAR, "points.csv"}), 2, "there is no command 'points.csv';");
   expect_refusal(hull({points, "--detail", "0"}), 2, "--detail: '0' is not a number above 0;");
-  expect_refusal(hull({points, "--max-parts", "0"}), 2, "--max-parts: '0' is not a number above 0;");
-  expect_refusal(hull({points, "--alpha", "-1"}), 2, "--alpha: '-1' is not a number of 0 or more");
+  expect_refusal(hull({points, "--detail", "inf"}), 2, "--detail: 'inf' is not a number above 0;");
+  for (const std::string text : {"0", "1.5", "-1", "1e3", "1,2", "many"}) {
+    expect_refusal(hull({points, "--max-parts", text}), 2,
+                   "--max-parts: '" + text + "' is not a whole number from 1 on;");
+  }
+  expect_refusal(hull({points, "--min-triangles", "1.5"}), 2,
+                 "--min-triangles: '1.5' is not a whole number from 0 on;");
+  expect_refusal(hull({points, "--alpha", "-1"}), 2, "--alpha: '-1' is not a number of 0 or more, or inf;");
   expect_refusal(hull({points, "--alpha", "nan"}), 2, "is not a number of 0 or more");
-  expect_refusal(hull({points, "--max-edge-length", "inf"}), 2, "is not a number of 0 or more");
+  expect_refusal(hull({points, "--max-edge-length=-inf"}), 2, "is not a number of 0 or more, or inf;");
+  expect_refusal(hull({points, "--min-area", "inf"}), 2, "is not a number of 0 or more;");
   expect_refusal(hull({points, "--min-area", "large"}), 2, "is not a number of 0 or more");
   expect_refusal(hull({points, "--simplify", "-0.5"}), 2, "is not a number of 0 or more");
   expect_refusal(hull({points, "--threads", "0"}), 2, "--threads");
@@ -686,6 +693,19 @@ TEST_F(HullCommandTest, AStreamGivesTheSameFile) {
       }
     }
   }
+}
+
+TEST_F(HullCommandTest, AnInfiniteLimitIsNone) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(shape({"--alpha", "inf"}), expected(kInfinity));
+  EXPECT_EQ(shape({"--alpha", "inf", "--max-edge-length", "0.4"}), expected(kInfinity, 0.4));
+  const json properties =
+      json::parse(succeeded(hull({points_file(), "--max-perimeter", "inf"})).out)["properties"];
+  EXPECT_TRUE(properties.at("max_perimeter").is_null());
+  EXPECT_EQ(properties["parts"], 1);
+  const std::vector<std::string> many = {file("many.npy", npy_of<double>(many_points(), "<f8")), "--alpha",
+                                         "inf"};
+  EXPECT_EQ(succeeded(hull(joined(many, {"--stream"}))).out, succeeded(hull(many)).out);
 }
 
 TEST_F(HullCommandTest, AStreamSaysWhatItCannotDo) {

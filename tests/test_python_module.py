@@ -21,6 +21,7 @@ import tracemalloc
 import unittest
 import warnings
 import xml.etree.ElementTree
+from fractions import Fraction
 
 import numpy as np
 import polylidar_core
@@ -366,9 +367,33 @@ class Inputs(unittest.TestCase):
         self.refused("max_edge_length must be zero or more", points, max_edge_length=-1)
         for threads in (0, -1):
             self.refused("threads must be one or more", points, threads=threads)
-        for options in ({"alpha": "1"}, {"threads": 1.5}):
-            with self.assertRaises(TypeError):
-                concave_hull(points, **options)
+
+    def test_options_of_another_type_are_named_in_one_sentence(self):
+        points = scattered(10)
+        for option, value, words in (
+            ("alpha", "1", "a number, not of the type str"),
+            ("alpha", [1], "a number, not of the type list"),
+            ("max_edge_length", 1j, "a number, not of the type complex"),
+            ("max_perimeter", np.ones(2), "a number, not of the type ndarray"),
+            ("detail", "a", "a number, not of the type str"),
+            ("detail", None, "a number, not of the type NoneType"),
+            ("fill_single_triangles", "yes", "True or False, not of the type str"),
+            ("cover", [1], "True or False, not of the type list"),
+            ("one", "no", "True or False, not of the type str"),
+            ("threads", 1.5, "a whole number, not of the type float"),
+        ):
+            with self.subTest(option=option, value=value):
+                sentence = f"^{option} must be {words}$"
+                with self.assertRaisesRegex(TypeError, sentence):
+                    concave_hull(points, **{option: value})
+                with self.assertRaisesRegex(TypeError, sentence):
+                    concave_hulls(points, np.zeros(10, int), **{option: value})
+
+    def test_numbers_and_flags_of_other_libraries_are_taken(self):
+        points = scattered(100)
+        expected = concave_hull(points, alpha=0.25, cover=True)
+        for alpha, cover in ((np.float32(0.25), np.True_), (Fraction(1, 4), 1), (np.array(0.25), True)):
+            self.assertEqual(concave_hull(points, alpha=alpha, cover=cover).area, expected.area)
 
     def test_only_the_points_go_without_their_name(self):
         kinds = {name: parameter.kind for name, parameter in inspect.signature(concave_hull).parameters.items()}

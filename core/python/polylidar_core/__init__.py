@@ -10,6 +10,7 @@ polylidar_core.geopandas does the same for GeoPandas, with a group a row.
 """
 from __future__ import annotations
 
+import math
 import operator
 import os
 from typing import TYPE_CHECKING, Any, Protocol, Sequence, Union
@@ -88,7 +89,7 @@ def concave_hull(
 
     ValueError: another shape, no real numbers, a coordinate that is not finite (the message names the row, from 0),
     coordinates whose magnitudes span more than a factor of 2^265, more than 2^28 points, a limit that is negative or
-    NaN, a detail that is not positive and finite, threads below 1.
+    NaN, a detail that is not positive and finite, threads below 1. TypeError: an option of another type.
 
         >>> around = [(x, y) for y in range(11) for x in range(11) if abs(x - 5) > 1 or abs(y - 5) > 1]
         >>> concave_hull(around, alpha=0.75)
@@ -98,7 +99,7 @@ def concave_hull(
     return MultiPolygon(
         array,
         *_core.concave_hull(
-            array, alpha, max_edge_length, max_perimeter, detail, fill_single_triangles, cover, one, _thread_count(threads)
+            array, *_checked(alpha, max_edge_length, max_perimeter, detail, fill_single_triangles, cover, one, threads)
         ),
     )
 
@@ -134,9 +135,8 @@ def concave_hulls(
     """
     array = as_points(points)
     numbers, names = numbered(labels, len(array))
-    hulls = _core.concave_hulls(
-        array, numbers, alpha, max_edge_length, max_perimeter, detail, fill_single_triangles, cover, one, _thread_count(threads)
-    )
+    options = _checked(alpha, max_edge_length, max_perimeter, detail, fill_single_triangles, cover, one, threads)
+    hulls = _core.concave_hulls(array, numbers, *options)
     return {
         number if names is None else names[number]: MultiPolygon(array, vertices, rings, parts, area)
         for number, vertices, rings, parts, area in hulls
@@ -156,10 +156,37 @@ def delaunay(points: Points) -> npt.NDArray[np.uint32]:
     return _core.delaunay(as_points(points))
 
 
+# In the order of the core's arguments; threads are the last one.
+_NUMBERS = ("alpha", "max_edge_length", "max_perimeter", "detail")
+_FLAGS = ("fill_single_triangles", "cover", "one")
+
+
+def _checked(*options: Any) -> tuple[Any, ...]:
+    """The options as the core takes them. TypeError in one sentence, where pybind11 would list its signatures."""
+    for name, value in zip(_NUMBERS, options):
+        if value is None and name != "detail":
+            continue
+        try:
+            math.fabs(value)
+        except TypeError:
+            raise _wrong_type(name, "a number", value) from None
+    for name, value in zip(_FLAGS, options[len(_NUMBERS) :]):
+        if not hasattr(type(value), "__bool__"):
+            raise _wrong_type(name, "True or False", value)
+    return (*options[:-1], _thread_count(options[-1]))
+
+
+def _wrong_type(name: str, kind: str, value: Any) -> TypeError:
+    return TypeError(f"{name} must be {kind}, not of the type {type(value).__name__}")
+
+
 def _thread_count(threads: int | None) -> int:
     if threads is None:
         return len(os.sched_getaffinity(0))
-    count = operator.index(threads)
+    try:
+        count = operator.index(threads)
+    except TypeError:
+        raise _wrong_type("threads", "a whole number", threads) from None
     if count < 1:
         raise ValueError("threads must be one or more, or None for all processors")
     return count

@@ -20,22 +20,27 @@ constexpr std::string_view kOnlyOutlines =
     "the points lie on outlines only, and the shape is what these enclose; --detail below 1 closes wider "
     "gaps, ";
 
-/// A finite number that `fits`; `words` say which are, `shown` says it in help.
+/// A number that `fits`; `words` say which are, `shown` says it in help.
 CLI::Validator number_that(bool (*fits)(double), const std::string& words, const std::string& shown) {
   return {[fits, words](const std::string& text) {
             double value = 0;
-            const bool is_one = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && fits(value);
+            const bool is_one = CLI::detail::lexical_cast(text, value) && fits(value);
             return is_one ? std::string() : "'" + text + "' is not a number " + words;
           },
           shown};
 }
 
 CLI::Validator zero_or_more() {
-  return number_that([](double value) { return value >= 0; }, "of 0 or more", ">=0");
+  return number_that([](double value) { return value >= 0 && std::isfinite(value); }, "of 0 or more", ">=0");
+}
+
+/// A limit; infinity is none, as in the core.
+CLI::Validator zero_or_more_or_inf() {
+  return number_that([](double value) { return value >= 0; }, "of 0 or more, or inf", ">=0 or inf");
 }
 
 CLI::Validator above_zero() {
-  return number_that([](double value) { return value > 0; }, "above 0", ">0");
+  return number_that([](double value) { return value > 0 && std::isfinite(value); }, "above 0", ">0");
 }
 
 /// The whole text as numbers between commas; empty when it is none.
@@ -53,16 +58,28 @@ std::vector<Number> numbers_of(std::string_view text) {
   }
 }
 
+CLI::Validator whole_number_from(std::size_t least) {
+  const std::string from = std::to_string(least);
+  return {[least, from](const std::string& text) {
+            const std::vector<std::size_t> numbers = numbers_of<std::size_t>(text);
+            const bool is_one = numbers.size() == 1 && numbers[0] >= least;
+            return is_one ? std::string() : "'" + text + "' is not a whole number from " + from + " on";
+          },
+          ">=" + from};
+}
+
 }  // namespace
 
 void add_shape_options(CLI::App& app, ShapeChoice& choice) {
   HullOptions& hull = choice.hull;
-  app.add_option("--alpha", hull.core.alpha, "Largest circumradius of a triangle of the shape")
-      ->check(zero_or_more());
-  app.add_option("--max-edge-length", hull.core.max_edge_length, "Longest edge of a triangle of the shape")
-      ->check(zero_or_more());
-  app.add_option("--max-perimeter", hull.core.max_perimeter, "Largest perimeter of a triangle of the shape")
-      ->check(zero_or_more());
+  app.add_option("--alpha", hull.core.alpha, "Largest circumradius of a triangle of the shape; inf: no limit")
+      ->check(zero_or_more_or_inf());
+  app.add_option("--max-edge-length", hull.core.max_edge_length,
+                 "Longest edge of a triangle of the shape; inf: no limit")
+      ->check(zero_or_more_or_inf());
+  app.add_option("--max-perimeter", hull.core.max_perimeter,
+                 "Largest perimeter of a triangle of the shape; inf: no limit")
+      ->check(zero_or_more_or_inf());
   CLI::Option* const detail =
       app.add_option(
              "--detail", hull.core.detail,
@@ -77,12 +94,13 @@ void add_shape_options(CLI::App& app, ShapeChoice& choice) {
   CLI::Option* const cover = app.add_flag(
       "--cover", hull.wanted.cover, "Leave no point outside: widen the limit just enough to cover them all");
   app.add_option("--max-parts", hull.max_parts, "Keep only this many polygons, the largest by area")
-      ->check(above_zero());
+      ->check(whole_number_from(1));
   app.add_option("--min-area", hull.min_area,
                  "Fill holes smaller than this area, then drop polygons smaller than it")
       ->check(zero_or_more());
   app.add_option("--min-triangles", hull.min_triangles,
-                 "Drop polygons made of fewer Delaunay triangles than this");
+                 "Drop polygons made of fewer Delaunay triangles than this")
+      ->check(whole_number_from(0));
   app.add_option("--simplify", hull.simplify,
                  "Simplify the outline: leave out vertices that are at most this far from the new one")
       ->check(zero_or_more());
