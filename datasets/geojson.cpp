@@ -100,23 +100,23 @@ auto read_document(const std::filesystem::path& path, const Parse& parse) {
   }
 }
 
-MultiPolygon parse_shape(const json& object) {
+}  // namespace
+
+MultiPolygon parse_geojson(const json& object) {
   MultiPolygon shape;
   parse_object(object, shape);
   if (shape.empty()) fail("it has no polygon; give a Polygon or MultiPolygon");
   return shape;
 }
 
-}  // namespace
-
 MultiPolygon read_geojson(const std::filesystem::path& path) {
-  return read_document(path, parse_shape);
+  return read_document(path, parse_geojson);
 }
 
 std::vector<MultiPolygon> read_geojson_features(const std::filesystem::path& path) {
   return read_document(path, [](const json& document) {
     std::vector<MultiPolygon> shapes;
-    for (const json& feature : document.at("features")) shapes.push_back(parse_shape(feature));
+    for (const json& feature : document.at("features")) shapes.push_back(parse_geojson(feature));
     return shapes;
   });
 }

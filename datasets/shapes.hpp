@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +39,10 @@ std::filesystem::path default_data_directory();
 /// file and what to do when it is missing, not JSON, or an entry lacks a field, has a wrong type or repeats a
 /// name.
 std::vector<ShapeInfo> read_manifest(const std::filesystem::path& data_directory);
+
+/// The polygons of a GeoJSON object, as read_geojson gives those of a file. Throws std::runtime_error naming
+/// the ring, and nlohmann::json::exception when a member is missing or of another type.
+polylidar::MultiPolygon parse_geojson(const nlohmann::json& object);
 
 /// The polygons of a GeoJSON file (RFC 7946; coordinates in the plane): a Polygon or MultiPolygon, alone, in
 /// a Feature or in the Features of a FeatureCollection. Rings lose the repeated last vertex and are turned:

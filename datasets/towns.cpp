@@ -58,13 +58,12 @@ const Country* find_country(const std::string& name) {
 
 Input read_input(const Country& country, const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "towns.geojson";
-  const json features = read_json_file(path).at("features");
   if (sha256_file(path) != kSha256) {
     throw std::runtime_error(path.string() + " is not the file that this program was made for; restore it");
   }
-  const auto number = static_cast<std::size_t>(&country - countries().data());
-  return {points_of(features.at(number).at("properties").at("towns")),
-          read_geojson_features(path).at(number)};
+  const json document = read_json_file(path);
+  const json& feature = document.at("features").at(static_cast<std::size_t>(&country - countries().data()));
+  return {points_of(feature.at("properties").at("towns")), parse_geojson(feature)};
 }
 
 }  // namespace hullbench::towns

@@ -200,9 +200,10 @@ class Experiment:
         """In the order of the records, which is that of the plan."""
         return list(dict.fromkeys(row.series for row in self.rows))
 
-    def machines(self) -> set[str]:
-        """Where the rows were measured, or their run where a row does not say."""
-        return {row.raw.get("machine") or self.report["environment"]["machine_id"] for row in self.rows}
+    def machines(self, with_times: bool = False) -> set[str]:
+        """Where the rows were measured, or those of them with times, or their run where a row does not say."""
+        rows = (row.raw for row in self.rows if row.raw["time_ns"] or not with_times)
+        return {row.get("machine") or self.report["environment"]["machine_id"] for row in rows}
 
     def dataset_title(self, name: str) -> str:
         """California; for a member of a family, Simulated floor 3."""

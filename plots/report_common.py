@@ -12,6 +12,8 @@ from urllib.parse import urlencode
 from records import SCHEMAS, Experiment, Series
 
 CORE = "polylidar"
+# Which method tells the steps of another: both are one, as for the program.
+TOLD_BY: dict[str, str] = json.loads((SCHEMAS / "paper.json").read_text(encoding="utf-8"))["steps"]["told_by"]
 
 # How methods, steps and parts of pictures look on every page and figure.
 LOOKS = json.loads((Path(__file__).resolve().parent / "methods.json").read_text(encoding="utf-8"))

@@ -13,7 +13,7 @@ from statistics import median
 from typing import Any
 
 from records import Experiment, Row, Series
-from report_common import CORE, STATUS_WORDS, count_of, label, number, sentence_list
+from report_common import CORE, STATUS_WORDS, TOLD_BY, count_of, label, number, sentence_list
 
 # Two errors closer than this are the same shape, written in another order: their areas differ by rounding only.
 SAME_ERROR = 1e-9
@@ -54,7 +54,7 @@ class Summary:
     experiment: Experiment
     standings: list[Standing]
     core: Standing | None  # the core's standing, under the paper's protocol if there are several
-    contested: int  # cases with results of two methods or more
+    contested: int  # cases with results of two methods or more; who tells a method's steps is no other method
     without_interval: bool  # of no time there is an interval: one repetition
     compared_errors: int
 
@@ -71,7 +71,7 @@ def summarise(experiment: Experiment) -> Summary:
     for one in everyone:
         for case, row in one.results.items():
             by_case[case].append((one, row))
-    contested = sum(len({row.method for _, row in contest}) > 1 for contest in by_case.values())
+    contested = sum(len({TOLD_BY.get(row.method, row.method) for _, row in contest}) > 1 for contest in by_case.values())
     compared = sum(_award_error(contest) for contest in by_case.values())
     for one in everyone:
         if core is not None and one is not core:
@@ -232,7 +232,7 @@ def mixture_sentence(experiments: Sequence[Experiment]) -> str:
 
     def is_mixed(one: Experiment) -> bool:
         builds = {part["tool"]["binary_sha256"] for part in one.report.get("merged", [one.report])}
-        return len(one.machines()) > 1 or len(builds) > 1
+        return len(one.machines(with_times=True)) > 1 or len(builds) > 1
 
     mixed = [one.title for one in experiments if is_mixed(one)]
     said = "are of several machines or builds of the program: to compare them is to compare these as well"

@@ -3,8 +3,9 @@
 
     hullbench league KEPT
 
-gives the same league again. A row keeps its method, protocol, case, status and the metrics that a league has; its times,
-its parameters (tune.json has them) and the digits behind the ninth are left out. RUNS must be a finished suite.
+gives the same league again. A row keeps its method, protocol, case, status, the metrics that a league has and the first
+twelve digits of its result's hash; its times, its parameters (tune.json has them) and the digits behind the ninth are left
+out. What is kept follows the schemas, which take rows without an identity and without times. RUNS must be a finished suite.
 
 Exit codes: 0 kept; 2 usage, or RUNS is no finished suite, or KEPT is there already.
 """
@@ -14,8 +15,12 @@ import sys
 from pathlib import Path
 from typing import Any
 
-METRICS = ("l2", "skill", "hole_f1", "ground_truth_area", "polygons", "polygons_error", "holes", "holes_error")
+METRICS = (
+    *("valid", "l2", "l2_paper", "skill", "hole_f1", "ground_truth_area"),
+    *("polygons", "polygons_error", "holes", "holes_error"),
+)
 TIMES = ("time_ns", "phases_ns")
+HASH_DIGITS = 12
 
 
 def shortened(value: Any) -> Any:
@@ -26,7 +31,7 @@ def kept_row(row: dict[str, Any]) -> dict[str, Any]:
     if "name" not in row:
         return row
     kept = {key: value for key, value in row.items() if key not in ("id", "canary_ns", "cold_time_ns", "program")}
-    kept.update({key: [] for key in TIMES}, parameters={}, output_sha256="")
+    kept.update({key: [] for key in TIMES}, parameters={}, output_sha256=row["output_sha256"][:HASH_DIGITS])
     kept["metrics"] = {name: shortened(row["metrics"][name]) for name in METRICS if name in row["metrics"]}
     return kept
 

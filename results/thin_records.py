@@ -3,15 +3,18 @@
 
 Tables are made of what stays: every run with its status, time and errors, and the first twelve digits of the hashes of its
 points and of its result, by which a new run can be compared with it. Left out are the metrics that no table of such an
-experiment has, the digits of times and of the others behind the fifth (tables show three), the times of the steps, the
-canaries' times (their verdict stands in the flags), and the identity, which is a hash of what stays.
+experiment has, the digits of times and of the others behind the fifth (tables show three), but for the metrics that tell
+whether two methods gave the same polygons (benchmarks/report/headline.cpp), the times of the steps, the canaries' times
+(their verdict stands in the flags), and the identity, which is a hash of what stays.
 """
 
 import json
 import sys
 
 PHASES = ("run", "extract")  # whose sum is the time
-METRICS = ("l2", "l2_paper", "ground_truth_area", "ground_truth_convexity", "valid", "invalid_reason")
+# l2_convex_hull is shortened as l2 is: beside the whole number an equal l2, once shortened, could be the larger one.
+METRICS = ("l2", "l2_paper", "l2_convex_hull", "ground_truth_area", "ground_truth_convexity", "valid", "invalid_reason")
+WHOLE_METRICS = ("polygons", "holes", "vertices", "area")
 HASHES = ("dataset_sha256", "output_sha256")
 HASH_DIGITS = 12
 
@@ -24,7 +27,11 @@ def shortened(value: object) -> object:
 for line in sys.stdin:
     row = json.loads(line)
     if "name" in row:
-        row["metrics"] = {name: shortened(value) for name, value in row["metrics"].items() if name in METRICS}
+        row["metrics"] = {
+            name: value if name in WHOLE_METRICS else shortened(value)
+            for name, value in row["metrics"].items()
+            if name in METRICS + WHOLE_METRICS
+        }
         row["phases_ns"] = [{name: shortened(times[name]) for name in PHASES if name in times} for times in row["phases_ns"]]
         row["time_ns"] = [shortened(time) for time in row["time_ns"]]
         row.update({name: row[name][:HASH_DIGITS] for name in HASHES if name in row})

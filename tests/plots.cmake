@@ -1,6 +1,7 @@
-# What is drawn of a run: figures, the HTML report and the comparison, with the distribution's Python, for which matplotlib
-# is installed, and in its browser.
+# What is made of a run in Python: what is kept of it, figures, the HTML report and the comparison, with the
+# distribution's Python, for which matplotlib is installed, and in its browser.
 set(needs_of_records "${SYSTEM_PYTHON}:matplotlib")
+set(needs_of_results)
 set(needs_of_figures "${SYSTEM_PYTHON}:matplotlib" "${SYSTEM_PYTHON}:scipy")
 set(needs_of_paper "${SYSTEM_PYTHON}:matplotlib" "${SYSTEM_PYTHON}:scipy")
 set(needs_of_html_report esbuild "${SYSTEM_PYTHON}:scipy")
@@ -9,7 +10,7 @@ set(needs_of_comparison esbuild "${PROJECT_SOURCE_DIR}/plots/node_modules")
 set(needs_of_ratings "${SYSTEM_PYTHON}:scipy")
 set(needs_of_front "${SYSTEM_PYTHON}:scipy")
 set(needs_of_site esbuild "${SYSTEM_PYTHON}:scipy")
-foreach(part IN ITEMS records ratings front figures paper html_report pictures comparison site)
+foreach(part IN ITEMS records results ratings front figures paper html_report pictures comparison site)
   hullbench_tool_test(NAME plots.${part} NEEDS "${SYSTEM_PYTHON}:jsonschema" ${needs_of_${part}}
     COMMAND "${SYSTEM_PYTHON}" -B -m unittest test_${part}_py)
   set_tests_properties(plots.${part} PROPERTIES LABELS plots TIMEOUT 900 COST ${HULLBENCH_COST_OF_LONG_TESTS}

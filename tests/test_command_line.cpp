@@ -247,12 +247,44 @@ TEST_F(CommandLineTest, ADamagedRunKeepsItsRows) {
   const std::string rows = read_text(folder() / "run/runs.jsonl");
   const std::size_t second = rows.find('\n') + 1;
   write_text(folder() / "run/runs.jsonl", rows.substr(0, second) + "{\"garbage\":1}\n" + rows.substr(second));
-  expect_refusal(hullbench({"run", small, "--out", "run"}), 1,
+  expect_refusal(hullbench({"run", small, "--out", "run"}), 2,
                  "line 2 of run/runs.jsonl is not a run's record");
-  expect_refusal(hullbench({"tables", "run"}), 1, "delete the line to keep the others");
+  expect_refusal(hullbench({"tables", "run"}), 2, "delete the line to keep the others");
   write_text(folder() / "run/run.json", "");
   expect_refusal(hullbench({"run", small, "--out", "run"}), 2,
                  "has measured rows, but its run.json cannot be read");
+}
+
+TEST_F(CommandLineTest, AFolderThatIsNoRunIsWrongUsageOfEveryCommand) {
+  succeeded(hullbench({"run", plan({500}, 1), "--out", "run"}));
+  const json whole = json::parse(read_text(folder() / "run/run.json"));
+  json incomplete = whole;
+  incomplete.erase("environment");
+  const auto expect_refused = [&](const std::string& run, const std::string& words) {
+    for (const std::vector<std::string>& command :
+         std::vector<std::vector<std::string>>{{"tables", run},
+                                               {"report", run, "--out", "new"},
+                                               {"league", run},
+                                               {"compare", run, run},
+                                               {"merge", run, "--out", "new"},
+                                               {"rescore", run, "--out", "new"},
+                                               {"readme", run, "README.md"}}) {
+      SCOPED_TRACE(command[0] + ": " + words);
+      expect_refusal(hullbench(command), 2, words);
+    }
+  };
+  write_text(folder() / "README.md", "# Title\n");
+  expect_refused("nowhere", "there is no run");
+  fs::create_directory(folder() / "empty");
+  expect_refused("empty", "there is no run in empty");
+  write_text(folder() / "run/run.json", "{");
+  expect_refused("run", "run/run.json is not a run's description");
+  write_text(folder() / "run/run.json", incomplete.dump());
+  expect_refused("run", "Missing required property 'environment'");
+  write_text(folder() / "run/run.json", whole.dump());
+  write_text(folder() / "run/runs.jsonl", "garbage\n");
+  expect_refused("run", "line 1 of run/runs.jsonl is not JSON");
+  expect_end(hullbench({"validate", "run/runs.jsonl"}), 1, "line 1 of run/runs.jsonl is not JSON");
 }
 
 TEST_F(CommandLineTest, PlansOfASuiteThatWereNotStartedAreTold) {
@@ -551,9 +583,9 @@ TEST_F(CommandLineTest, ADatabaseThatAnswersNothingIsAVisibleRow) {
     const ProgramOptions options = {
         {}, {{"HULLBENCH_POSTGIS_DSN", "host=127.0.0.1 connect_timeout=2 port=" + port}}, false};
     const std::string out = "run" + port;
-    const Outcome outcome = hullbench(
-        {"run", "states", "--filter", "postgis/hi/n:2000/holes:0", "--repetitions", "1", "--out", out},
-        options);
+    const Outcome outcome = hullbench({"run", "states", "--filter", "postgis/hi/n:2000/holes:0/protocol:auto",
+                                       "--repetitions", "1", "--out", out},
+                                      options);
     EXPECT_EQ(outcome.code, 6) << outcome.err;
     const auto rows = lines_of(folder() / out / "runs.jsonl");
     ASSERT_EQ(rows.size(), 1U);
@@ -572,7 +604,7 @@ TEST_F(CommandLineTest, PostgisThatIsNotInstalledIsARowWithItsRemedy) {
                           {{}, {{"HULLBENCH_POSTGRES_BIN", nothing.string()}}, false}));
   expect_says(outcome.err, "postgis does not start (not_installed): PostgreSQL is not installed");
   expect_says(outcome.err, "apt-get install postgresql-postgis");
-  expect_says(outcome.err, "1 ok, 0 failed, 1 not installed");
+  expect_says(outcome.err, "1 ok, 0 failed, 2 not installed");
 }
 
 TEST_F(CommandLineTest, WhatWasNotInstalledIsMeasuredWhenItIsThere) {
@@ -589,22 +621,22 @@ TEST_F(CommandLineTest, WhatWasNotInstalledIsMeasuredWhenItIsThere) {
     for (const json& row : lines_of(folder() / rows)) ++counts[row["status"]];
     return counts;
   };
-  const std::map<std::string, int> both = {{"ok", 2}};
+  const std::map<std::string, int> both = {{"ok", 3}};
 
   ASSERT_EQ(run({"states"}, missing).code, 0);
-  EXPECT_EQ(statuses("run/runs.jsonl"), (std::map<std::string, int>{{"not_installed", 1}, {"ok", 1}}));
+  EXPECT_EQ(statuses("run/runs.jsonl"), (std::map<std::string, int>{{"not_installed", 2}, {"ok", 1}}));
   const Outcome second = run({"states"}, {});
   expect_says(second.err,
-              "1 of 2 runs are finished and not measured again (--force starts anew); tried again "
-              "because a package was missing: 1\n");
+              "1 of 3 runs are finished and not measured again (--force starts anew); tried again "
+              "because a package was missing: 2\n");
   EXPECT_EQ(statuses("run/runs.jsonl"), both);
   expect_says(run({"states"}, {}).err,
-              "2 of 2 runs are finished and not measured again (--force starts anew)\n");
+              "3 of 3 runs are finished and not measured again (--force starts anew)\n");
 
   ASSERT_EQ(run({"states", "alphabet"}, missing).code, 0);
   const Outcome suite = run({"states", "alphabet"}, {});
   EXPECT_EQ(suite.err.find("is finished already"), std::string::npos) << suite.err;
-  expect_says(suite.err, "4 ok, 0 failed, 0 not installed");
+  expect_says(suite.err, "6 ok, 0 failed, 0 not installed");
   for (const char* plan : {"states", "alphabet"}) {
     EXPECT_EQ(statuses(fs::path("suite") / plan / "runs.jsonl"), both) << plan;
   }

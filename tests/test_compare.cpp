@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -99,11 +100,12 @@ TEST(CompareRuns, PairsByPlanFirstThenByNameThenInOrder) {
   EXPECT_EQ(compared.only_b, std::vector<std::string>{run_on("c", {5}).name});
 }
 
-TEST(CompareRuns, AMethodsMedianIsClusteredByShape) {
+/// The method in two runs: in A it took 10 everywhere, in B these times, each on a data set of its own at
+/// four sizes.
+report::MethodChange change_on(const std::map<std::string, std::int64_t>& times) {
   std::vector<record::RunRecord> a;
   std::vector<record::RunRecord> b;
-  for (const int time : {20, 30, 40, 50, 60}) {
-    const std::string dataset = "shape-" + std::to_string(time);
+  for (const auto& [dataset, time] : times) {
     for (const std::int64_t n : {1000, 2000, 3000, 4000}) {
       a.push_back(run_on(dataset, {10}));
       b.push_back(run_on(dataset, {time}));
@@ -113,15 +115,27 @@ TEST(CompareRuns, AMethodsMedianIsClusteredByShape) {
       }
     }
   }
-  const report::RunsCompared compared = report::compare_runs({report_of(a)}, {report_of(b)});
-  ASSERT_EQ(compared.methods.size(), 1U);
-  const report::MethodChange& method = compared.methods[0];
+  return report::compare_runs({report_of(a)}, {report_of(b)}).methods.at(0);
+}
+
+TEST(CompareRuns, AMethodsMedianIsClusteredByShape) {
+  const report::MethodChange method =
+      change_on({{"shape-20", 20}, {"shape-30", 30}, {"shape-40", 40}, {"shape-50", 50}, {"shape-60", 60}});
   EXPECT_EQ(method.pairs, 20U);
   EXPECT_EQ(method.ratio, 4);
   // Five shapes, as five values: the whole range. Twenty independent values would give 3 to 5.
   ASSERT_TRUE(method.interval.has_value());
   EXPECT_EQ(method.interval->low, 2);
   EXPECT_EQ(method.interval->high, 6);
+}
+
+TEST(CompareRuns, VariantsOfAShapeAreOne) {
+  // The members of a graded family, and one shape sampled in several ways.
+  const report::MethodChange graded = change_on(
+      {{"channel-1", 20}, {"channel-2", 30}, {"channel-3", 40}, {"channel-4", 50}, {"channel-5", 60}});
+  EXPECT_EQ(graded.ratio, 4);
+  EXPECT_FALSE(graded.interval.has_value());
+  EXPECT_FALSE(change_on({{"ca", 20}, {"ca~noise:0.5", 30}, {"ca~noise:1", 40}}).interval.has_value());
 }
 
 bool has_note(const table::Document& document, const std::string& words) {
@@ -224,17 +238,17 @@ TEST_F(CompareCommandTest, NamesRunsThatOnlyOneHas) {
 TEST_F(CompareCommandTest, RefusesWhatCannotBeCompared) {
   expect_refusal(compare("nowhere", "b"), 2, "there is no run nowhere");
   fs::create_directory(path("empty"));
-  expect_refusal(compare("a", "empty"), 1, "run.json");
+  expect_refusal(compare("a", "empty"), 2, "there is no run in empty");
   write_text(path("broken.json"), "{\"runs\": 3}");
-  expect_refusal(compare("broken.json", "b"), 1, "broken.json is not a report");
+  expect_refusal(compare("broken.json", "b"), 2, "broken.json is not a report");
   write_text(path("old.json"), R"({"runs": [], "schema_version": 99})");
-  expect_refusal(compare("old.json", "b"), 1, "old.json is of another schema version");
+  expect_refusal(compare("old.json", "b"), 2, "old.json is of another schema version");
   write_text(path("bad.jsonl"), "{}\n");
-  expect_refusal(compare("a", "bad.jsonl"), 1, "bad.jsonl");
+  expect_refusal(compare("a", "bad.jsonl"), 2, "bad.jsonl");
   write_text(path("bad.json"), R"({"schema_version": 1, "runs": [{}]})");
-  expect_refusal(compare("a", "bad.json"), 1, "cannot be read");
+  expect_refusal(compare("a", "bad.json"), 2, "cannot be read");
   write_text(path("cut.jsonl.xz"), "no xz");
-  expect_refusal(compare("cut.jsonl.xz", "b"), 1, "cut.jsonl.xz");
+  expect_refusal(compare("cut.jsonl.xz", "b"), 2, "cut.jsonl.xz");
   write_invented_run(path("other"), {500});
   expect_refusal(compare("a", "other"), 6, "have no run in common");
 }

@@ -323,6 +323,11 @@ class TheSummary(Folder):
         self.assertEqual([self.standing(summary, "polylidar", protocol).fastest_in for protocol in ("paper", "auto")], [1, 1])
         self.assertEqual((summary.contested, self.standing(summary, "cgal").fastest_in), (2, 0))
 
+    def test_who_tells_the_steps_of_a_method_is_no_rival(self):
+        steps = run("polylidar_steps", times=(300,) * 3)
+        self.assertEqual(self.summary(run(), steps).contested, 0)
+        self.assertEqual(self.summary(run(), steps, run("cgal", times=(200,) * 3)).contested, 1)
+
     def test_protocols_of_one_method_alone_are_compared_with_nothing(self):
         summary = self.summary(run(), run(protocol="auto"))
         self.assertEqual((summary.contested, [one.fastest_in for one in summary.standings]), (0, [0, 0]))
@@ -390,6 +395,9 @@ class TheSummary(Folder):
         self.assertNotIn("several machines", summary_html(self.load(here, elsewhere), []))
         elsewhere["machine"] = "feedbeef"
         self.assertIn("The times of States are of several machines", summary_html(self.load(here, elsewhere), []))
+        failed = run("cgal", status="error", detail="no")
+        failed["machine"] = "feedbeef"
+        self.assertNotIn("several machines", summary_html(self.load(here, failed), []))
 
     def test_who_chose_the_parameters_is_what_the_records_say(self):
         [experiment] = self.load(run(protocol="auto"))

@@ -8,6 +8,7 @@
 
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/names.hpp"
+#include "benchmarks/record/validate.hpp"
 #include "benchmarks/run/manifest.hpp"
 #include "benchmarks/run/method_catalog.hpp"
 #include "tests/complaint.hpp"
@@ -109,15 +110,49 @@ TEST_F(ManifestTest, FaultsAreSaidWithTheFileAndThePlace) {
   expect_fault(manifest, "citation");
   manifest = good_manifest();
   manifest["parameters"][1]["name"] = "k";
-  expect_fault(manifest, "the parameter 'k' is there twice");
+  expect_fault(manifest, "The parameter 'k' is there twice");
   manifest = good_manifest();
   manifest["parameters"][0]["maximum"] = 2;
-  expect_fault(manifest, "a minimum above its maximum");
+  expect_fault(manifest, "The parameter 'k' has a minimum above its maximum");
   manifest["parameters"][0]["maximum"] = 9;
   manifest["parameters"][0]["default"] = 10;
-  expect_fault(manifest, "a default outside its range");
+  expect_fault(manifest, "The parameter 'k' has a default outside its range");
   manifest["parameters"][0]["unit"] = "metres";
   expect_fault(manifest, "/parameters/0/unit");
+}
+
+TEST_F(ManifestTest, ValidationSaysWhatContradictsItself) {
+  using Faults = std::vector<std::string>;
+  json manifest = good_manifest();
+  EXPECT_EQ(record::validate_file(write(manifest)), Faults());
+  json& parameters = manifest["parameters"];
+  parameters[0]["maximum"] = 2;
+  parameters[1]["maximum"] = 5;
+  EXPECT_EQ(record::validate_file(write(manifest)),
+            (Faults{"The parameter 'k' has a minimum above its maximum.",
+                    "The parameter 'reach' has a default outside its range."}));
+  parameters[0]["maximum"] = 3;
+  parameters[1]["default"] = 5;
+  EXPECT_EQ(record::validate_file(write(manifest)), Faults());
+}
+
+TEST_F(ManifestTest, ARangeMayHaveNoMinimum) {
+  json manifest = good_manifest();
+  manifest["parameters"][0]["minimum"] = nullptr;
+  manifest["parameters"][0]["default"] = -1;
+  const run::Manifest loaded = run::load_manifest(write(manifest));
+  EXPECT_EQ(loaded.method.info->parameters[0].minimum, -std::numeric_limits<double>::infinity());
+}
+
+TEST_F(ManifestTest, AKeyThatStandsTwiceIsRefused) {
+  std::string text = good_manifest().dump();
+  text.insert(1, R"("title": "Other", )");
+  const fs::path file = folder_.path() / "twice.json";
+  write_text(file, text);
+  EXPECT_EQ(complaint_of<ConfigurationError>([&] { run::load_manifest(file); }),
+            "the manifest " + file.string() + " has the key 'title' twice in one object; leave one out");
+  EXPECT_EQ(record::validate_file(file),
+            std::vector<std::string>{"It has the key 'title' twice in one object; leave one out."});
 }
 
 TEST_F(ManifestTest, WhatIsNotJsonAndWhatIsNotThere) {

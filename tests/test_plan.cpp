@@ -312,6 +312,22 @@ TEST(Plan, RecordingsAreAddedToRealPoints) {
                                       "polylidar/real-recorded-2/n:all/holes:0/protocol:paper"}));
 }
 
+TEST(Plan, AKeyThatStandsTwiceInOneObjectIsRefused) {
+  const std::string good = small_plan().dump();
+  const auto refusal_with = [&](const std::string& before, const std::string& added) {
+    std::string text = good;
+    text.insert(text.find(before), added);
+    return refusal_of([&] { plan::parse_plan(text, "here"); });
+  };
+  EXPECT_EQ(refusal_with("\"cases\":[", "\"name\":\"a\","),
+            "here has the key 'name' twice in one object; leave one out");
+  EXPECT_EQ(refusal_with("\"method\":\"spatialite\"", "\"method\":\"a\","),
+            "here has the key 'method' twice in one object; leave one out");
+  // Behind an object inside.
+  EXPECT_EQ(refusal_with("\"protocol\":", "\"protocol\":\"a\","),
+            "here has the key 'protocol' twice in one object; leave one out");
+}
+
 TEST(Plan, DrawsAreCountedAndWritten) {
   json source = small_plan();
   EXPECT_EQ(parsed(source).draws, 0);
@@ -518,7 +534,7 @@ TEST(Field, AnEntryOfThePlanChangesWhatItSaysOfOneThatIsTaken) {
   json source = {{"field", {"spatialite"}}, {"methods", {entries[1], entries[1]}}};
   EXPECT_TRUE(
       names_all(refusal_of([&] { plan_of_field(source); }), {"methods[1]", "repeats", "'spatialite'"}));
-  source["methods"] = {entries[1]};
+  source["methods"] = json::array({entries[1]});
   source["methods"][0]["parameters"] = {{"c", 2}};
   EXPECT_TRUE(
       names_all(refusal_of([&] { plan_of_field(source); }), {"methods[0]", "'note'", "whose default"}));

@@ -23,6 +23,7 @@
 #include "benchmarks/report/report.hpp"
 #include "benchmarks/run/run_directory.hpp"
 #include "benchmarks/run/runner.hpp"
+#include "benchmarks/run/workbench.hpp"
 #include "datasets/datasets.hpp"
 #include "datasets/random.hpp"
 #include "datasets/sha256.hpp"
@@ -222,6 +223,66 @@ TEST_F(RunnerTest, RealPointsThatAreNotInstalledAreRowsThatSaySo) {
   }
   const json report = report::make_report(folder_.path() / "run");
   EXPECT_EQ(record::validate_report(report), std::vector<std::string>());
+}
+
+/// The rows of a run by "METHOD/DATASET".
+std::map<std::string, record::RunRecord> by_dataset(const std::vector<json>& lines) {
+  std::map<std::string, record::RunRecord> result;
+  for (const json& line : lines) {
+    const auto row = line.get<record::RunRecord>();
+    EXPECT_TRUE(result.emplace(row.method + "/" + row.dataset, row).second) << row.name << " is there twice";
+  }
+  return result;
+}
+
+TEST_F(RunnerTest, PointsThatCannotBeReadAreRowsThatSaySoAndTheOthersAreMeasured) {
+  const fs::path broken = folder_.path() / "recordings" / "broken";
+  write_recording(broken);
+  write_recording(folder_.path() / "recordings" / "scene");
+  write_text(broken / "points.txt", "0 0\n0 nan\n1 1\n");
+  folders_.recordings = folder_.path() / "recordings";
+  json source = plan::plan_to_json(real_plan_of({"polylidar", "convex_hull"}, "real-recorded-1", 1));
+  source["cases"].push_back({{"dataset", "real-recorded-2"}});
+  const plan::Plan plan = plan::parse_plan(source.dump(), "test");
+  EXPECT_EQ(exit_code(measure(plan)), kExitFailures);
+  for (const auto& [name, row] : by_dataset(lines("runs.jsonl"))) {
+    const bool is_broken = row.dataset == "real-recorded-1";
+    EXPECT_EQ(to_string(row.status), is_broken ? "error" : "ok") << name << ": " << row.detail;
+    if (is_broken) expect_says(row.detail, "there are no points: ");
+    if (is_broken) expect_says(row.detail, "line 2, has a number that is not finite");
+  }
+  EXPECT_EQ(lines("runs.jsonl").size(), 4U);
+  EXPECT_EQ(record::validate_report(report::make_report(folder_.path() / "run")), std::vector<std::string>());
+
+  // Once they can be read, they are measured.
+  fs::remove_all(broken);
+  write_recording(broken);
+  EXPECT_EQ(exit_code(measure(plan)), 0);
+  EXPECT_EQ(to_string(by_dataset(lines("runs.jsonl")).at("polylidar/real-recorded-1").status), "ok");
+}
+
+TEST_F(RunnerTest, PointsThatNothingCanBeMadeOfEndNoRun) {
+  const fs::path wide = folder_.path() / "recordings" / "a";
+  write_recording(wide);
+  write_recording(folder_.path() / "recordings" / "b");
+  write_text(wide / "points.txt", "0 0\n1e-200 1\n1e200 0\n");
+  folders_.recordings = folder_.path() / "recordings";
+  json source = plan::plan_to_json(real_plan_of({"polylidar", "good"}, "real-recorded-1", 0));
+  source["cases"].push_back({{"dataset", "real-recorded-2"}});
+  source["methods"][0]["protocol"] = "auto";
+  source["methods"][0]["parameters"] = {{"max_edge_length", {{"rule", "auto_edge_length"}}}};
+  EXPECT_EQ(exit_code(measure(plan::parse_plan(source.dump(), "test"))), kExitFailures);
+  const auto measured = by_dataset(lines("runs.jsonl"));
+  ASSERT_EQ(measured.size(), 4U);
+  const record::RunRecord& without_parameters = measured.at("polylidar/real-recorded-1");
+  EXPECT_EQ(to_string(without_parameters.status), "error");
+  expect_says(without_parameters.detail, "the parameters cannot be chosen: coordinates span more than");
+  const record::RunRecord& without_score = measured.at("good/real-recorded-1");
+  EXPECT_EQ(to_string(without_score.status), "error");
+  expect_says(without_score.detail, "the result cannot be scored: coordinates span more than");
+  EXPECT_EQ(to_string(measured.at("polylidar/real-recorded-2").status), "ok");
+  EXPECT_EQ(to_string(measured.at("good/real-recorded-2").status), "ok");
+  EXPECT_EQ(record::validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
 }
 
 TEST_F(RunnerTest, AGoodMethodGetsACompleteRow) {
@@ -842,7 +903,7 @@ TEST_F(RunnerTest, AMethodThatCompilesIsWarmBeforeItsFirstCase) {
   // 115 runs until it got no faster, the untimed one, and the repetitions.
   EXPECT_EQ(measured[0]["time_ns"], (json{800'117, 800'118}));
   EXPECT_EQ(measured[0]["cold_time_ns"], 8'000'001);
-  EXPECT_EQ(measured[1]["time_ns"], (json{800'120, 800'121})) << "it is warm already";
+  EXPECT_EQ(measured[1]["time_ns"], (json{800'140, 800'141})) << "20 runs warm it up for other points";
   EXPECT_FALSE(measured[1].contains("cold_time_ns"));
   EXPECT_EQ(record::validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
 }
@@ -865,6 +926,30 @@ TEST_F(RunnerTest, AWarmUpThatFailsIsTheRowsFailure) {
   EXPECT_EQ(exit_code(measure(plan_of({"crash"}), &compiling_worker_of)), 4);
   EXPECT_EQ(to_string(rows().at("crash").status), "crash");
   EXPECT_EQ(rows().at("crash").detail, "SIGSEGV");
+}
+
+TEST_F(RunnerTest, OnlyTheFirstCallOfAProcessIsAColdOne) {
+  const plan::Plan plan = plan_of({"polylidar"}, 1);
+  const auto drawn = std::make_shared<const run::DrawnCase>(plan.expanded_cases[0], 1, folders_);
+  run::Workbench bench(folder_.path() / "scratch");
+  bench.add(compiling_worker_of("polylidar"), {512, std::nullopt});
+  worker::MethodSession& session = *bench.find("polylidar");
+  session.begin_start();
+  session.finish_start();
+  const auto warm_up = [&](double alpha) {
+    run::MethodRun run(drawn, "polylidar", {});
+    run.begin(session, session.info(), 20);
+    run.record.parameters["alpha"] = alpha;
+    bench.warm_up(run);
+    return run.record;
+  };
+  EXPECT_EQ(to_string(warm_up(-1).status), "error");
+  EXPECT_GT(session.pid(), 0) << "the worker lives on";
+  const record::RunRecord later = warm_up(1);
+  EXPECT_EQ(to_string(later.status), "ok") << later.detail;
+  EXPECT_FALSE(later.cold_time_ns) << "the process has run before";
+  session.quit(std::chrono::seconds(10));
+  EXPECT_TRUE(warm_up(1).cold_time_ns) << "another process";
 }
 
 TEST_F(RunnerTest, WorkFilesDoNotStay) {

@@ -167,6 +167,8 @@ TEST_F(Shapes, ManifestEntryIsRead) {
 
 TEST_F(Shapes, FaultyManifestsAreRefused) {
   expect_says(manifest_error("nonsense"), "manifest.json is not valid JSON (");
+  expect_says(manifest_error(R"({"shapes": [], "shapes": []})"),
+              "manifest.json has the key 'shapes' twice in one object; leave one out");
   expect_says(manifest_error("{}"), "'shapes' not found");
   expect_says(manifest_error(R"({"shapes": null})"), "'shapes' is not an array");
   const json complete = manifest_entry();

@@ -323,7 +323,7 @@ TEST_F(InterruptedSuiteTest, HasTheTablesOfWhatIsThere) {
   fs::remove_all(suite() / "second");
   EXPECT_EQ(hullbench({"tables", "suite"}).code, 0);
   write_text(suite() / "suite.json", "{");
-  expect_refusal(hullbench({"tables", "suite"}), 1, "cannot read suite/suite.json");
+  expect_refusal(hullbench({"tables", "suite"}), 2, "cannot read suite/suite.json");
 }
 
 }  // namespace

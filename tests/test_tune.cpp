@@ -195,6 +195,11 @@ TEST_F(TuneTest, TheLeagueIsTheSameAgainFromTheRowsThatAreKept) {
   ASSERT_EQ(std::system((keep + (folder() / "suite").string() + " " + (folder() / "kept").string()).c_str()),
             0);
   EXPECT_EQ(hullbench({"league", "kept"}).out, league.out);
+  for (const auto& run : fs::directory_iterator(folder() / "kept")) {
+    if (!run.is_directory()) continue;
+    expect_valid((run.path() / "run.json").string());
+    expect_valid((run.path() / "runs.jsonl.xz").string());
+  }
 }
 
 TEST_F(TuneTest, AMethodWithoutANumberHasItsDefaultOnly) {
@@ -386,7 +391,7 @@ TEST_F(TuneTest, RefusesWhatItCannotDo) {
   fs::create_directory(folder() / "old");
   write_text(folder() / "old" / "sweep-1-of-2.jsonl", R"({"kind": "evaluation", "case": "ca/n:200/holes:0"})"
                                                       "\n");
-  expect_refusal(tune(cases, "disc", "old"), 1, "sweep-1-of-2.jsonl is not a run's record");
+  expect_refusal(tune(cases, "disc", "old"), 2, "sweep-1-of-2.jsonl is not a run's record");
   write_text(folder() / "file", "");
   expect_refusal(tune(cases, "disc", "file"), 2, "cannot write to the output folder");
   const std::string nobodys = plan(json::array({{{"dataset", "star-1~lattice:0"}, {"n", {200}}}}));

@@ -222,10 +222,21 @@ TEST_F(MethodSessionTest, AMethodThatCompilesIsWarmWhenItGetsNoFaster) {
   EXPECT_TRUE(session_->is_cold()) << "nobody has warmed it up";
 }
 
+TEST_F(MethodSessionTest, AWarmProcessIsWarmedUpForOtherParametersInFewerRuns) {
+  warm_up("gets_faster");  // 115 runs
+  const worker::LoadedPoints points = square();
+  const Parameters other = {{"size", 2}};
+  EXPECT_FALSE(session_->is_cold(points, {{"size", 1}}));
+  EXPECT_TRUE(session_->is_cold(points, other));
+  EXPECT_EQ(to_string(session_->warm_up(points, other, folder_.path(), 30s).status), "ok");
+  EXPECT_FALSE(session_->is_cold(points, other));
+  EXPECT_EQ(run().time_ns(), 800'000 + 115 + 20 + 1);
+}
+
 TEST_F(MethodSessionTest, AMethodThatTakesLongIsWarmAfterAWhile) {
   const auto start = std::chrono::steady_clock::now();
   EXPECT_EQ(to_string(warm_up("takes_long").status), "ok");
-  EXPECT_GE(std::chrono::steady_clock::now() - start, worker::kWarmUpTime);
+  EXPECT_GE(std::chrono::steady_clock::now() - start, worker::kWarmUpOfProcess.time);
   EXPECT_FALSE(session_->is_cold());
 }
 
@@ -397,6 +408,18 @@ TEST(WorkerProcess, EndsWithItsInput) {
   worker.quit(10s);
   EXPECT_FALSE(worker.alive());
   EXPECT_FALSE(is_running(pid));
+}
+
+TEST(WorkerProcess, SeveralEndAtTheSameTime) {
+  std::vector<std::unique_ptr<worker::WorkerProcess>> workers;
+  for (int i = 0; i < 5; ++i) {
+    workers.push_back(std::make_unique<worker::WorkerProcess>(
+        std::vector<std::string>{"/bin/sh", "-c", "read line; sleep 1"}, worker::WorkerLimits()));
+  }
+  const auto start = std::chrono::steady_clock::now();
+  for (const auto& worker : workers) worker->ask_to_quit();
+  for (const auto& worker : workers) EXPECT_TRUE(worker->quit(10s));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, 4s);
 }
 
 TEST(WorkerProcess, RunsOnTheCoreAndWithTheMemoryItIsGiven) {

@@ -26,7 +26,7 @@ std::optional<std::string> read_text_file(const fs::path& path) {
 
 std::string required_text(const fs::path& path) {
   if (std::optional<std::string> text = read_text_file(path)) return std::move(*text);
-  throw std::runtime_error("Cannot read " + path.string() + ".");
+  throw ConfigurationError("Cannot read " + path.string() + ".");
 }
 
 void write_text_file(const fs::path& given, const std::string& text) {

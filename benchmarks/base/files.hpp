@@ -14,7 +14,7 @@ namespace hullbench {
 /// naming the file when its disk fails.
 std::optional<std::string> read_text_file(const fs::path& path);
 
-/// The same; throws std::runtime_error naming the file when there are none.
+/// The same; throws ConfigurationError naming the file when there are none.
 std::string required_text(const fs::path& path);
 
 /// Writes a file whole or not at all: a temporary file beside it is renamed. A link stays, and what it names

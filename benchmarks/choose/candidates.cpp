@@ -50,8 +50,10 @@ void add_methods_of_manifests(Question& question, const run::MethodCatalog& cata
 void write_recording(std::span<const Point> points, const fs::path& scene) {
   fs::create_directories(scene);
   std::string text;
-  for (const Point& point : points)
+  for (const Point& point : points) {
+    throw_if_interrupted();
     text += polylidar::tool::shortest(point.x) + " " + polylidar::tool::shortest(point.y) + "\n";
+  }
   write_text_file(scene / "points.txt", text);
 }
 

@@ -2,12 +2,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <stdexcept>
 #include <vector>
 
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/names.hpp"
 #include "benchmarks/cli/options.hpp"
+#include "benchmarks/cli/run_folder.hpp"
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/record/stored_run.hpp"
 #include "benchmarks/report/compare.hpp"
@@ -29,11 +29,11 @@ json read_report(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   json report = json::parse(in, nullptr, false);
   if (!report.is_object() || !report.contains("runs") || !report["runs"].is_array()) {
-    throw std::runtime_error(file.string() +
+    throw ConfigurationError(file.string() +
                              " is not a report; give a run's folder, its report.json or its runs.jsonl");
   }
   if (report.value("schema_version", json()) != record::kSchemaVersion) {
-    throw std::runtime_error(file.string() +
+    throw ConfigurationError(file.string() +
                              " is of another schema version than this program's; make it anew with "
                              "this version's 'hullbench run'");
   }
@@ -45,9 +45,11 @@ json read_lines(const fs::path& file) {
 }
 
 report::ComparedSide read_side(const std::string& path) {
-  if (fs::is_directory(path))
+  if (fs::is_directory(path)) {
+    check_run_folder(path);
     return {path,
             record::is_suite(path) ? report::suite_reports(path) : std::vector{report::make_report(path)}};
+  }
   if (!fs::is_regular_file(path)) {
     throw ConfigurationError("there is no run " + path +
                              "; give a run's folder, its report.json or its runs.jsonl");
@@ -60,7 +62,7 @@ report::RunsCompared compare_sides(const report::ComparedSide& a, const report::
   try {
     return report::compare_runs(a.reports, b.reports);
   } catch (const std::exception& error) {
-    throw std::runtime_error("a run in " + a.name + " or " + b.name +
+    throw ConfigurationError("a run in " + a.name + " or " + b.name +
                              " cannot be read; 'hullbench validate' says what is wrong: " + error.what());
   }
 }

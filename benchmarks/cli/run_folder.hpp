@@ -10,7 +10,7 @@
 
 namespace hullbench::cli {
 
-/// Throws ConfigurationError unless `folder` is one.
+/// Throws ConfigurationError, one sentence, unless `folder` is that of a run or a suite that can be read.
 void check_run_folder(const fs::path& folder);
 
 /// Says on standard error which plans of the suite in `folder`, if it is one, were not started. Returns how

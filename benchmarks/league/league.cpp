@@ -375,8 +375,15 @@ void add_parts(League& league, const Field& field) {
       to.push_back({name, found->second.cases, found->second.seen});
   };
   for (const std::string& kind : tune::shape_kinds()) add(league.kinds, kinds, kind);
+  constexpr const char* kSeveral = "several";
   for (const tune::SplitRow& row : tune::sampler_split()) add(league.samplers, samplers, row.name);
-  add(league.samplers, samplers, "several");
+  // Those that the split does not know: no shape is sampled as towns are.
+  for (const auto& [name, part] : samplers) {
+    if (name != kSeveral &&
+        std::ranges::find(league.samplers, name, &LeaguePart::name) == league.samplers.end())
+      add(league.samplers, samplers, name);
+  }
+  add(league.samplers, samplers, kSeveral);
 }
 
 }  // namespace

@@ -112,7 +112,8 @@ struct League {
   bool test_only = true;   ///< on the cases of test shapes only (benchmarks/tune/split.hpp)
   std::size_t shapes = 0;  ///< base shapes that the cases are of
   std::size_t cases = 0;   ///< whose errors count
-  /// That there are, in the order of shape_kinds(), and in that of sampler_split() with "several" last.
+  /// That there are, in the order of shape_kinds(), and in that of sampler_split() with those that it does
+  /// not know behind and "several" last.
   std::vector<LeaguePart> kinds;
   std::vector<LeaguePart> samplers;
   /// By protocol in the order of the tables; in each those with less than half of the cases of another one

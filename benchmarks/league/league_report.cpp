@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/base/words.hpp"
@@ -309,8 +310,12 @@ std::string league_csv(const League& league) {
 }
 
 json load_league(const fs::path& folder) {
-  const std::optional<std::string> text = read_text_file(folder / kLeagueFile);
-  return text ? json::parse(*text) : json();
+  const fs::path file = folder / kLeagueFile;
+  const std::optional<std::string> text = read_text_file(file);
+  if (!text) return json();
+  json league = json::parse(*text, nullptr, false);
+  if (league.is_discarded()) throw ConfigurationError(file.string() + " is not JSON; get it anew");
+  return league;
 }
 
 void write_league_tables(const fs::path& folder) {

@@ -48,8 +48,8 @@ struct Metrics {
 /// What can be said of `result` where there is no ground truth, as of degenerate input and real points:
 /// validity, area and its share of the convex hull's, counts and contract, and of `draws`, what the method
 /// made of parts of the points, if there are any, the stability; of a `window`, if it is not empty, the IoU
-/// with it. The ground truth's area and convexity are 0. Throws std::runtime_error when GEOS
-/// fails.
+/// with it. The ground truth's area and convexity are 0. Throws std::runtime_error when GEOS fails, and as
+/// polylidar::concave_hull for the points.
 Metrics describe(std::span<const Point> points, const MultiPolygon& result, const MultiPolygon& window = {},
                  std::span<const PartResults> draws = {});
 

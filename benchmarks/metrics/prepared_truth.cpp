@@ -1,5 +1,6 @@
 #include "benchmarks/metrics/prepared_truth.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -17,7 +18,8 @@ PreparedTruth::PreparedTruth(const MultiPolygon& shape) {
   area_ = geos_.area(geometry_);
   const GeosSession::Geometry hull =
       geos_.own(GEOSConvexHull_r(geos_.context(), geometry_.get()), "making a convex hull");
-  convexity_ = area_ / geos_.area(hull);
+  // A convex shape's two areas are summed in different orders.
+  convexity_ = std::min(1.0, area_ / geos_.area(hull));
   perimeter_ = perimeter(shape);
 }
 

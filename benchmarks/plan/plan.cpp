@@ -14,6 +14,7 @@
 #include "benchmarks/plan/field.hpp"
 #include "benchmarks/plan/plan_schema.hpp"
 #include "benchmarks/plan/release_seed.hpp"
+#include "datasets/json_file.hpp"
 #include "datasets/stress.hpp"
 
 namespace hullbench::plan {
@@ -180,7 +181,9 @@ std::string place_of_byte(const std::string& text, std::size_t byte) {
 
 json parse_json(const std::string& text, const std::string& source) {
   try {
-    return json::parse(text);
+    return parse_json_text(text);
+  } catch (const RepeatedKey& error) {
+    throw ConfigurationError(source + " " + error.what());
   } catch (const json::parse_error& error) {
     throw ConfigurationError(source + " is not JSON: mend it at " + place_of_byte(text, error.byte));
   } catch (const json::out_of_range&) {

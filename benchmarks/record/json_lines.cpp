@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/record/xz_file.hpp"
 
@@ -13,7 +14,7 @@ json parse_line(const std::string& line, const fs::path& path, std::size_t numbe
   try {
     return json::parse(line);
   } catch (const json::exception&) {
-    throw std::runtime_error("line " + std::to_string(number) + " of " + path.string() + " is not JSON; " +
+    throw ConfigurationError("line " + std::to_string(number) + " of " + path.string() + " is not JSON; " +
                              kDeleteLine);
   }
 }

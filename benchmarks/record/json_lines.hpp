@@ -28,7 +28,7 @@ struct JsonLines {
 inline constexpr const char* kDeleteLine = "delete the line to keep the others";
 
 /// Reads `path`, compressed by xz when its name ends in .xz. A file that does not exist has no lines; empty
-/// lines are skipped. Throws std::runtime_error naming the file and the line when it cannot be read or when a
+/// lines are skipped. Throws ConfigurationError naming the file and the line when it cannot be read or when a
 /// complete line is not JSON.
 JsonLines load_json_lines(const fs::path& path);
 

@@ -1,7 +1,6 @@
 #include "benchmarks/record/kept_polygons.hpp"
 
-#include <stdexcept>
-
+#include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/files.hpp"
 #include "datasets/sha256.hpp"
 
@@ -31,7 +30,7 @@ std::optional<std::vector<std::uint8_t>> kept_polygons(const fs::path& run, cons
   const std::string bytes = required_text(file);
   std::vector<std::uint8_t> wkb(bytes.begin(), bytes.end());
   if (hash_of(wkb) != sha256)
-    throw std::runtime_error(file.string() + " was changed: its hash is not its name");
+    throw ConfigurationError(file.string() + " was changed: its hash is not its name");
   return wkb;
 }
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
+
+#include "benchmarks/base/configuration_error.hpp"
 
 namespace hullbench::record {
 namespace {
@@ -77,15 +78,16 @@ json l2_of(const RunRecord& record) {
   return record.metrics.value("l2", json());
 }
 
-/// Who competes for a place among the worst: "polylidar/star/holes:1/protocol:paper".
+/// Who competes for a place among the worst: "polylidar/star~noise:0.5/holes:1/protocol:paper".
 std::string group_of(const std::string& run_name, const std::string& dataset) {
-  const auto member = split_member_name(dataset);
+  const std::string shape = dataset.substr(0, dataset.find('~'));
+  const auto member = split_member_name(shape);
   std::string group = run_name;
   const auto number = group.find("/n:");
   const auto holes = group.find("/holes:");
   if (number == std::string::npos || holes == std::string::npos) return group;
   group.erase(number, holes - number);
-  if (member) group.replace(group.find('/') + 1, dataset.size(), member->first);
+  if (member) group.replace(group.find('/') + 1, shape.size(), member->first);
   return group;
 }
 
@@ -109,33 +111,35 @@ PictureBook::PictureBook(const fs::path& folder, std::size_t planned_runs)
         cases_.insert(name);
       } else {
         const std::string dataset = name.substr(0, name.find("/n:"));
-        std::multiset<double>& kept = worst_[group_of(line.at("run").get<std::string>(), dataset)];
-        kept.insert(badness(line.at("l2")));
-        if (kept.size() > kWorstPictures) kept.erase(kept.begin());
+        remember(group_of(line.at("run").get<std::string>(), dataset), badness(line.at("l2")));
       }
     }
   } catch (const json::exception&) {
-    throw std::runtime_error("a line of " + (folder / kPicturesFile).string() +
+    throw ConfigurationError("a line of " + (folder / kPicturesFile).string() +
                              " is not a picture; start anew with --force or another --out");
   }
 }
 
-bool PictureBook::is_wanted(const RunRecord& record) {
+bool PictureBook::is_wanted(const std::string& group, double error) const {
   if (keep_all_) return true;
-  std::multiset<double>& kept = worst_[group_of(record.name, record.dataset)];
-  const double error = badness(l2_of(record));
-  if (kept.size() >= kWorstPictures) {
-    if (error <= *kept.begin()) return false;
-    kept.erase(kept.begin());
-  }
+  const auto kept = worst_.find(group);
+  return kept == worst_.end() || kept->second.size() < kWorstPictures || error > *kept->second.begin();
+}
+
+void PictureBook::remember(const std::string& group, double error) {
+  std::multiset<double>& kept = worst_[group];
   kept.insert(error);
-  return true;
+  if (kept.size() > kWorstPictures) kept.erase(kept.begin());
 }
 
 void PictureBook::add(const RunRecord& record, const PointSet& set, const MultiPolygon& result) {
+  const std::string group = group_of(record.name, record.dataset);
+  const double error = badness(l2_of(record));
+  if (!is_wanted(group, error)) return;
   const Grid grid = grid_of(set);
   std::optional<json> polygons = draw(result, grid);
-  if (!polygons || !is_wanted(record)) return;
+  if (!polygons) return;
+  remember(group, error);
   const std::string name = case_of_run(record.name);
   if (cases_.insert(name).second) writer_.append(draw_case(name, set, grid));
   writer_.append({{"kind", "result"},

@@ -31,9 +31,9 @@ inline constexpr const char* kPicturesFile = "pictures.jsonl";
 std::string case_of_run(const std::string& run_name);
 
 /// Writes the pictures of one run's folder. Of a plan of at most kAllPictures runs every result is kept. Of a
-/// larger one the worst kWorstPictures of each method and protocol, shape family and kind of holes by l2, an
-/// invalid result being the worst: a line is written when a result is among them so far, so the file holds
-/// somewhat more.
+/// larger one the worst kWorstPictures of each method and protocol, shape family, stress and kind of holes by
+/// l2, an invalid result being the worst: a line is written when a result is among them so far, so the file
+/// holds somewhat more.
 class PictureBook {
  public:
   static constexpr std::size_t kAllPictures = 1000;
@@ -50,7 +50,10 @@ class PictureBook {
   void add(const RunRecord& record, const PointSet& set, const MultiPolygon& result);
 
  private:
-  bool is_wanted(const RunRecord& record);
+  /// Whether a result with that error is among the worst of its group so far.
+  bool is_wanted(const std::string& group, double error) const;
+  /// That it is kept.
+  void remember(const std::string& group, double error);
 
   bool keep_all_;
   std::set<std::string> cases_;                         ///< that have their line

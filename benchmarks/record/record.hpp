@@ -33,8 +33,8 @@ Status status_from_string(const std::string& name);
 /// paper timed.
 using PhaseTimes = std::map<std::string, std::int64_t>;
 
-/// How long two fixed pieces of work of the harness took in a round: what they tell is the machine's, not a
-/// method's.
+/// How long two fixed pieces of work of the harness took after a round, or up to a second before: what they
+/// tell is the machine's, not a method's.
 struct CanaryTimes {
   std::int64_t memory = 0;   ///< bound by memory
   std::int64_t compute = 0;  ///< bound by arithmetic
@@ -68,7 +68,7 @@ struct RunRecord {
   std::vector<std::int64_t> rounds;
   std::vector<std::int64_t>
       passes;  ///< the pass of each repetition, from 1; empty in older records: one pass
-  std::vector<CanaryTimes> canary_ns;  ///< of each repetition's round; empty in older records
+  std::vector<CanaryTimes> canary_ns;  ///< after each repetition's round; empty in older records
   /// run + extract of the first call in a fresh process; none where the method has no compiler to warm.
   std::optional<std::int64_t> cold_time_ns;
   json metrics = json::object();  ///< see metrics.hpp; null for what is undefined

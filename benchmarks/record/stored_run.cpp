@@ -1,33 +1,35 @@
 #include "benchmarks/record/stored_run.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <fstream>
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/record/record.hpp"
+#include "benchmarks/record/validate.hpp"
 
 namespace hullbench::record {
 namespace {
 
 json read_run_file(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw std::runtime_error("Cannot read " + path.string() + ": is this the folder of a run?");
+  if (!in) throw ConfigurationError("Cannot read " + path.string() + ": is this the folder of a run?");
   try {
     json run = json::parse(in);
-    if (!run.is_object()) throw std::runtime_error(path.string() + " does not hold a JSON object.");
+    if (!run.is_object()) throw ConfigurationError(path.string() + " does not hold a JSON object.");
     const json version = run.value("schema_version", json());
     if (version != kSchemaVersion) {
-      throw std::runtime_error(path.string() + " is of another schema version (" + version.dump() +
+      throw ConfigurationError(path.string() + " is of another schema version (" + version.dump() +
                                ") than this program's (" + std::to_string(kSchemaVersion) +
                                "); use the version of hullbench that made it");
     }
     return run;
   } catch (const json::exception& error) {
-    throw std::runtime_error(path.string() + " is not a run's description: " + error.what() + ".");
+    throw ConfigurationError(path.string() + " is not a run's description: " + error.what() + ".");
   }
 }
 
@@ -40,7 +42,7 @@ std::vector<RunRecord> records_of(const JsonLines& lines, const fs::path& path) 
     try {
       records.push_back(lines.lines[i].get<RunRecord>());
     } catch (const std::exception& error) {
-      throw std::runtime_error("line " + std::to_string(lines.numbers[i]) + " of " + path.string() +
+      throw ConfigurationError("line " + std::to_string(lines.numbers[i]) + " of " + path.string() +
                                " is not a run's record (" + error.what() + "); " + kDeleteLine);
     }
   }
@@ -72,6 +74,13 @@ std::vector<std::string> plans_without_run(const fs::path& folder) {
   return names;
 }
 
+void check_run(const fs::path& run_directory) {
+  const fs::path file = run_directory / kHeaderFile;
+  const std::vector<std::string> faults = validate_run(read_run_file(file));
+  if (faults.empty()) return;
+  throw ConfigurationError(file.string() + " is not a run's description: " + faults.front());
+}
+
 json load_run(const fs::path& run_directory) {
   json report = read_run_file(run_directory / kHeaderFile);
   fs::path lines_file = run_directory / kRowsFile;
@@ -91,13 +100,15 @@ bool is_suite(const fs::path& folder) {
 json read_suite(const fs::path& folder) {
   std::ifstream in(folder / kSuiteFile, std::ios::binary);
   json suite = in ? json::parse(in, nullptr, false) : json();
-  return suite.is_object() && suite.contains("plans") ? suite : json();
+  const json plans = suite.is_object() ? suite.value("plans", json()) : json();
+  const auto is_name = [](const json& plan) { return plan.is_string(); };
+  return plans.is_array() && std::all_of(plans.begin(), plans.end(), is_name) ? suite : json();
 }
 
 std::vector<fs::path> suite_runs(const fs::path& folder) {
   const json suite = read_suite(folder);
   if (!suite.is_object()) {
-    throw std::runtime_error("cannot read " + (folder / kSuiteFile).string() +
+    throw ConfigurationError("cannot read " + (folder / kSuiteFile).string() +
                              ": is it a suite's description?");
   }
   std::vector<fs::path> runs;

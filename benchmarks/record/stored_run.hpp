@@ -27,15 +27,19 @@ inline constexpr const char* kTablesFolder = "tables";
 inline constexpr const char* kTornNote =
     "The last line of runs.jsonl was cut short when the run was interrupted; it is left out.";
 
+/// Throws ConfigurationError, one sentence, where there is no run in the folder, or its run.json does not
+/// follow the schema.
+void check_run(const fs::path& run_directory);
+
 /// A run directory as it is: `run.json`, with its rows as `runs` and with `notes`; what make_report gives but
-/// for the summary.
+/// for the summary. Throws ConfigurationError naming the file that cannot be read.
 json load_run(const fs::path& run_directory);
 
 /// The lines of the runs file `path` with each id once: its last line, at the place of its first. Throws
-/// std::runtime_error naming the file when one is not a run's record.
+/// ConfigurationError naming the file when one is not a run's record.
 json last_of_each_id(JsonLines lines, const fs::path& path);
 
-/// The lines of `path` as records. Throws std::runtime_error naming the file and the line that is none.
+/// The lines of `path` as records. Throws ConfigurationError naming the file and the line that is none.
 std::vector<RunRecord> records_of(const JsonLines& lines, const fs::path& path);
 
 /// The plans of the suite in `folder` that have no run yet, as after an interruption.
@@ -48,7 +52,7 @@ bool is_suite(const fs::path& folder);
 json read_suite(const fs::path& folder);
 
 /// The folders of the runs in the suite in `folder`, in its order; those that were not begun are left out.
-/// Throws std::runtime_error naming the file when suite.json cannot be read.
+/// Throws ConfigurationError naming the file when suite.json cannot be read.
 std::vector<fs::path> suite_runs(const fs::path& folder);
 
 }  // namespace hullbench::record

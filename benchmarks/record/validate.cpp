@@ -1,14 +1,19 @@
 #include "benchmarks/record/validate.hpp"
 
+#include <limits>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
+#include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/base/json_schema.hpp"
 #include "benchmarks/record/embedded.hpp"
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/record/record.hpp"
+#include "datasets/json_file.hpp"
 
 namespace hullbench::record {
 namespace {
@@ -55,7 +60,12 @@ std::vector<std::string> validate_row(const json& row) {
 
 std::vector<std::string> validate_lines(const fs::path& path) {
   if (!fs::is_regular_file(path)) throw std::runtime_error("Cannot read " + path.string() + ".");
-  const JsonLines lines = load_json_lines(path);
+  JsonLines lines;
+  try {
+    lines = load_json_lines(path);
+  } catch (const ConfigurationError& error) {
+    return {error.what()};
+  }
   std::vector<std::string> result;
   for (std::size_t index = 0; index < lines.lines.size(); ++index) {
     const json& line = lines.lines[index];
@@ -68,6 +78,32 @@ std::vector<std::string> validate_lines(const fs::path& path) {
   if (!lines.torn.empty())
     result.emplace_back("The last line is cut short: it does not end with a line feed.");
   return result;
+}
+
+/// What the schema of manifests cannot say.
+std::vector<std::string> parameter_faults(const json& parameters) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto number = [](const json& value, double none) {
+    return value.is_null() ? none : value.get<double>();
+  };
+  std::vector<std::string> sentences;
+  std::set<std::string> names;
+  for (const json& parameter : parameters) {
+    const auto name = parameter.at("name").get<std::string>();
+    const auto add = [&](const std::string& fault) {
+      sentences.push_back("The parameter '" + name + "' " + fault);
+    };
+    const double minimum = number(parameter.at("minimum"), -kInfinity);
+    const double maximum = number(parameter.at("maximum"), kInfinity);
+    if (!names.insert(name).second) add("is there twice.");
+    if (minimum > maximum) {
+      add("has a minimum above its maximum.");
+    } else if (parameter.contains("default")) {
+      const double value = number(parameter["default"], kInfinity);
+      if (value < minimum || value > maximum) add("has a default outside its range.");
+    }
+  }
+  return sentences;
 }
 
 /// Makes of run.json the report of a run that has no row yet: one schema says what both hold.
@@ -86,6 +122,11 @@ std::vector<std::string> validate_report(const json& report) {
   return faults(schema, report);
 }
 
+std::vector<std::string> validate_run(json description) {
+  complete_run_description(description);
+  return validate_report(description);
+}
+
 std::vector<std::string> validate_by_kind(const json& document) {
   const JsonSchema* schema = schema_of_kind(document);
   if (schema == nullptr) throw std::invalid_argument("there is no schema for this kind of document");
@@ -94,18 +135,22 @@ std::vector<std::string> validate_by_kind(const json& document) {
 
 std::vector<std::string> validate_manifest(const json& manifest) {
   static const JsonSchema schema = parse_schema(kManifestSchemaJson);
-  return faults(schema, manifest);
+  std::vector<std::string> sentences = faults(schema, manifest);
+  if (sentences.empty()) sentences = parameter_faults(manifest["parameters"]);
+  return sentences;
 }
 
 std::vector<std::string> validate_file(const fs::path& path) {
   if (path.extension() == ".jsonl" || path.string().ends_with(".jsonl.xz")) return validate_lines(path);
   const std::string content = required_text(path);
   try {
-    json document = json::parse(content);
+    json document = parse_json_text(content);
     if (document.is_object() && document.contains("manifest_version")) return validate_manifest(document);
     if (schema_of_kind(document) != nullptr) return validate_by_kind(document);
-    if (path.filename() == "run.json" && document.is_object()) complete_run_description(document);
+    if (path.filename() == "run.json" && document.is_object()) return validate_run(std::move(document));
     return validate_report(document);
+  } catch (const RepeatedKey& error) {
+    return {std::string("It ") + error.what() + "."};
   } catch (const json::exception& error) {
     throw std::runtime_error(path.string() + " is not JSON: " + error.what() + ".");
   }

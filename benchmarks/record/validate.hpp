@@ -19,7 +19,10 @@ std::vector<std::string> validate_file(const fs::path& path);
 /// The same of a report in memory.
 std::vector<std::string> validate_report(const json& report);
 
-/// The same of a manifest (manifest.hpp) in memory.
+/// The same of a run's description, an object.
+std::vector<std::string> validate_run(json description);
+
+/// The same of a manifest (manifest.hpp) in memory, and what contradicts itself in its parameters.
 std::vector<std::string> validate_manifest(const json& manifest);
 
 /// The same of what says its `kind`: a line of pictures.jsonl, tune.json, league.json, tables.json,

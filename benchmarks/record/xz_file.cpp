@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <stdexcept>
 
+#include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/files.hpp"
 
 namespace hullbench::record {
@@ -28,10 +28,10 @@ std::string read_xz_file(const std::filesystem::path& path) {
     stream.avail_out = chunk.size();
     state = lzma_code(&stream, LZMA_FINISH);
     content.append(chunk.data(), chunk.size() - stream.avail_out);
-    if (content.size() > kMaxBytes) throw std::runtime_error(path.string() + " holds more than 1 GiB.");
+    if (content.size() > kMaxBytes) throw ConfigurationError(path.string() + " holds more than 1 GiB.");
   }
   if (state != LZMA_STREAM_END) {
-    throw std::runtime_error(path.string() + " is not a whole xz file; get it anew.");
+    throw ConfigurationError(path.string() + " is not a whole xz file; get it anew.");
   }
   return content;
 }

@@ -3,10 +3,10 @@
 #include <map>
 #include <utility>
 
-#include "benchmarks/report/labels.hpp"
 #include "benchmarks/report/measurements.hpp"
 #include "benchmarks/statistics/judge.hpp"
 #include "benchmarks/statistics/statistics.hpp"
+#include "datasets/datasets.hpp"
 
 namespace hullbench::report {
 namespace {
@@ -96,7 +96,7 @@ MethodChange method_change(const std::string& method, const std::string& protoco
     if (pair->change == Change::kSlower) ++result.slower;
     if (!pair->time) continue;
     ratios.push_back(pair->time->ratio);
-    by_shape[shape_of(pair->a.dataset)].push_back(pair->time->ratio);
+    by_shape[base_shape(pair->a.dataset)].push_back(pair->time->ratio);
   }
   result.pairs = ratios.size();
   if (ratios.empty()) return result;

@@ -29,10 +29,6 @@ std::optional<std::string> family_of(const json& report, const std::string& data
   return std::nullopt;
 }
 
-std::string shape_of(const std::string& dataset) {
-  return dataset.substr(0, dataset.find('~'));
-}
-
 std::string stress_title(const std::string& stress) {
   std::string title;
   for (const char c : stress) title += c == ':' ? " " : c == '~' ? ", " : std::string(1, c);
@@ -57,7 +53,7 @@ std::string method_label(const std::vector<json>& reports, const std::string& me
 }
 
 std::string family_title(const json& report, const std::string& dataset) {
-  const std::string shape = shape_of(dataset);
+  const std::string shape = dataset.substr(0, dataset.find('~'));
   return title_of(report.at("datasets"), family_of(report, shape).value_or(shape));
 }
 

@@ -25,9 +25,6 @@ std::optional<std::string> family_of(const json& report, const std::string& data
 /// "Comb" for "comb-17": the title of the data set, or of the family that it is a member of.
 std::string family_title(const json& report, const std::string& dataset);
 
-/// "ca" of "ca~gradient:16": the shape that the points are sampled from.
-std::string shape_of(const std::string& dataset);
-
 /// "gradient 16, noise 0.5" of "gradient:16~noise:0.5", what stands behind the first '~' of a data set's
 /// name.
 std::string stress_title(const std::string& stress);

@@ -5,8 +5,8 @@
 #include <map>
 #include <utility>
 
-#include "benchmarks/report/labels.hpp"
 #include "benchmarks/statistics/statistics.hpp"
+#include "datasets/datasets.hpp"
 
 namespace hullbench::report {
 namespace {
@@ -122,7 +122,7 @@ CaseRatios::CaseRatios(Case of_case, statistics::Passes by_pass)
 
 std::optional<statistics::Interval> interval_over(std::span<const CaseRatios> cases) {
   std::map<std::string, std::vector<statistics::Passes>> by_shape;
-  for (const CaseRatios& one : cases) by_shape[shape_of(one.which.dataset)].push_back(one.passes);
+  for (const CaseRatios& one : cases) by_shape[base_shape(one.which.dataset)].push_back(one.passes);
   std::vector<std::vector<statistics::Passes>> clusters;
   clusters.reserve(by_shape.size());
   for (auto& [shape, values] : by_shape) clusters.push_back(std::move(values));

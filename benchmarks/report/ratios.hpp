@@ -67,8 +67,8 @@ struct CaseRatios {
   double middle;              ///< the median of all
 };
 
-/// Of the median of the cases' medians, nested (bootstrap.hpp); its clusters are the
-/// shapes, each with and without holes and sampled in any way.
+/// Of the median of the cases' medians, nested (bootstrap.hpp); its clusters are the base shapes
+/// (datasets.hpp), each with and without holes and sampled in any way.
 std::optional<statistics::Interval> interval_over(std::span<const CaseRatios> cases);
 
 /// The interval; nothing when there is none.

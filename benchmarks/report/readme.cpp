@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/report/table_context.hpp"
 #include "benchmarks/table/writers.hpp"
 
@@ -56,7 +57,8 @@ std::optional<table::Table> methods_table(const json& report) {
   }
   table.remarks.emplace_back(
       "Error: the symmetric difference, % of the ground truth's area (in brackets as the paper divides it, "
-      "of the result's area). (paper): with the paper's parameters, which come from the ground truth.");
+      "of the result's area). (paper): with the paper's parameters, from the ground truth; SpatiaLite's by "
+      "hand.");
   if (times)
     table.remarks.emplace_back(
         "Time: from points in memory to a valid multipolygon in memory, median ± median absolute deviation.");
@@ -76,7 +78,7 @@ std::size_t place_of(const std::string& text, std::string_view mark) {
 }  // namespace
 
 std::string readme_results(const std::vector<json>& reports, const std::string& folder) {
-  if (reports.empty()) throw std::runtime_error("there is no run in " + folder + " yet; measure it first");
+  if (reports.empty()) throw ConfigurationError("there is no run in " + folder + " yet; measure it first");
   std::size_t runs = 0;
   for (const json& report : reports) runs += report.at("runs").size();
   std::ostringstream out;

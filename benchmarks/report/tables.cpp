@@ -206,8 +206,10 @@ std::optional<table::Table> cold_table(const TableContext& context) {
   }
   if (table.rows.empty()) return std::nullopt;
   table.remarks.emplace_back(
-      "Of methods that compile while they run. All other tables show them warmed up, at the first case of a "
-      "process. Medians of the cases on which they succeeded, and of the cases' ratios.");
+      "Of methods that compile while they run: the first call of a process beside the calls of the same row "
+      "after the "
+      "warm-up, which all other tables show. Medians of the cases on which they succeeded, and of the cases' "
+      "ratios.");
   return table;
 }
 

@@ -75,7 +75,8 @@ std::string describe(const MultiPolygon& shape) {
 
 /// For points that lie `spacing` apart on average (in their unit) and a method of which nothing else is
 /// known: lengths are three spacings, squared lengths nine of them squared, everything else is at its
-/// default, or in the middle of its range when it has none; all clamped to their ranges.
+/// default, or in the middle of its range when it has none, or at 0 when that has no ends; all clamped to
+/// their ranges.
 Parameters contract_parameters(const MethodInfo& info, double spacing) {
   constexpr double kSpacings = 3;
   Parameters result;
@@ -85,7 +86,7 @@ Parameters contract_parameters(const MethodInfo& info, double spacing) {
     if (parameter.unit != "length" && parameter.unit != "length^2") {
       const double middle = std::isfinite(parameter.maximum) ? (parameter.minimum + parameter.maximum) / 2
                                                              : parameter.minimum + 1;
-      value = parameter.default_value.value_or(middle);
+      value = parameter.default_value.value_or(std::isfinite(middle) ? middle : 0);
     }
     const bool is_default = value == parameter.default_value;
     result[parameter.name] = is_default ? value : std::clamp(value, parameter.minimum, parameter.maximum);
@@ -205,6 +206,9 @@ class ContractTest {
     if (!can.several_polygons && shape.size() > 1) {
       return "several polygons, which the method says it cannot have: say so in its capabilities";
     }
+    // Points that are not finite have no hull.
+    if (!std::ranges::all_of(points, [](const Point& p) { return std::isfinite(p.x) && std::isfinite(p.y); }))
+      return {};
     const double largest = metrics::convex_hull_area(points);
     if (polylidar::area(shape) > largest * (1 + kSameShare)) {
       return "a shape larger than the points' convex hull: return polygons whose vertices are the points";

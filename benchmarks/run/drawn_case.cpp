@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "adapters/wkb.hpp"
+#include "benchmarks/base/interrupt.hpp"
 #include "benchmarks/metrics/metric_table.hpp"
 #include "benchmarks/worker/protocol.hpp"
 #include "datasets/point_bytes.hpp"
@@ -33,6 +34,13 @@ DrawnCase::DrawnCase(const plan::PlanCase& plan_case, std::uint64_t seed, const 
     missing_ = error.what();
   }
 }
+
+DrawnCase::DrawnCase(const plan::PlanCase& plan_case, std::uint64_t seed, const std::string& fault)
+    : plan_case_(plan_case),
+      seed_(seed),
+      set_(set_of({})),
+      missing_("there are no points: " + fault),
+      missing_status_(record::Status::kError) {}
 
 DrawnCase::DrawnCase(const DrawnCase& whole, std::vector<Point> part)
     : plan_case_(whole.plan_case_), seed_(whole.seed_), set_(set_of(std::move(part))) {}
@@ -81,7 +89,9 @@ void DrawnCase::score_with(record::RunRecord& record, Scores scores_of) const {
     const metrics::AreaScores scores = scores_of();
     if (scores.valid) return;
     fault = kInvalidPolygon + scores.invalid_reason;
-  } catch (const std::runtime_error& error) {
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::exception& error) {
     status = record::Status::kError;
     fault = kNoScore + std::string(error.what());
   }

@@ -27,6 +27,9 @@ class DrawnCase {
   /// missing() says why.
   DrawnCase(const plan::PlanCase& plan_case, std::uint64_t seed, const DataFolders& folders);
 
+  /// Without points, which could not be made for the reason `fault`.
+  DrawnCase(const plan::PlanCase& plan_case, std::uint64_t seed, const std::string& fault);
+
   /// Some of the points of `whole`, without its truth: what parameters are chosen from for a run on them.
   DrawnCase(const DrawnCase& whole, std::vector<Point> part);
 
@@ -34,6 +37,8 @@ class DrawnCase {
 
   /// Why there are no points; empty when there are.
   const std::string& missing() const { return missing_; }
+  /// The status of a run where there are no points.
+  record::Status missing_status() const { return missing_status_; }
 
   /// The parameters that the plan's entry asks for here; none where there are no points.
   Parameters choose_parameters(const plan::PlanMethod& method) const;
@@ -64,6 +69,7 @@ class DrawnCase {
   std::uint64_t seed_;
   PointSet set_;
   std::string missing_;
+  record::Status missing_status_ = record::Status::kNotInstalled;
   mutable std::once_flag scoring_is_prepared_;
   mutable std::optional<metrics::CaseScorer> scorer_;  ///< none: there is no ground truth, or it has a fault
   mutable std::string scorer_fault_;

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/record/validate.hpp"
 #include "benchmarks/worker/protocol.hpp"
+#include "datasets/json_file.hpp"
 #include "datasets/sha256.hpp"
 
 namespace hullbench::run {
@@ -32,22 +32,6 @@ std::vector<std::string> resolved_words(const json& manifest, const char* key, c
 MethodInfo info_of(json manifest) {
   manifest["version"] = "";
   return worker::method_from_json(manifest);
-}
-
-/// What the schema cannot say.
-void check_parameters(const MethodInfo& info, const std::string& source) {
-  std::set<std::string> names;
-  for (const ParameterInfo& parameter : info.parameters) {
-    const std::string subject = source + ": the parameter '" + parameter.name + "' ";
-    if (!names.insert(parameter.name).second) throw ConfigurationError(subject + "is there twice");
-    if (!(parameter.minimum <= parameter.maximum)) {
-      throw ConfigurationError(subject + "has a minimum above its maximum");
-    }
-    if (parameter.default_value &&
-        !(*parameter.default_value >= parameter.minimum && *parameter.default_value <= parameter.maximum)) {
-      throw ConfigurationError(subject + "has a default outside its range");
-    }
-  }
 }
 
 /// The hashes of the files in `folder` that are no manifests, no data and no texts (.md): what a method there
@@ -80,6 +64,16 @@ std::string hash_of(const std::string& text, const json& command, const fs::path
   return sha256_hex(all);
 }
 
+json parsed(const std::string& text, const std::string& source) {
+  try {
+    return parse_json_text(text);
+  } catch (const RepeatedKey& error) {
+    throw ConfigurationError(source + " " + error.what());
+  } catch (const json::exception&) {
+    throw ConfigurationError(source + " is not JSON; mend or remove it");
+  }
+}
+
 }  // namespace
 
 bool is_manifest(const fs::path& file) {
@@ -91,8 +85,7 @@ Manifest load_manifest(const fs::path& file) {
   const std::string source = "the manifest " + file.string();
   const std::optional<std::string> text = read_text_file(file);
   if (!text) throw ConfigurationError("cannot read the manifest " + file.string());
-  const json document = json::parse(*text, nullptr, false);
-  if (document.is_discarded()) throw ConfigurationError(source + " is not JSON; mend or remove it");
+  const json document = parsed(*text, source);
   if (const auto faults = record::validate_manifest(document); !faults.empty()) {
     throw ConfigurationError(source + " has a fault; mend or remove it: " + faults.front());
   }
@@ -101,7 +94,6 @@ Manifest load_manifest(const fs::path& file) {
   manifest.file = file;
   manifest.sha256 = hash_of(*text, document["command"], folder);
   manifest.method.info = info_of(document);
-  check_parameters(*manifest.method.info, source);
   manifest.method.name = manifest.method.info->name;
   manifest.method.title = manifest.method.info->title;
   manifest.method.command = resolved_words(document, "command", folder);

@@ -11,7 +11,6 @@
 #include "benchmarks/plan/plan.hpp"
 #include "benchmarks/record/pictures.hpp"
 #include "benchmarks/record/stored_run.hpp"
-#include "benchmarks/record/validate.hpp"
 #include "benchmarks/run/run_directory.hpp"
 #include "benchmarks/run/runner.hpp"
 
@@ -28,12 +27,9 @@ Source load_source(const fs::path& folder) {
   if (!fs::exists(folder / "run.json"))
     throw ConfigurationError("there is no run in " + folder.string() + "; give the folder of a run or suite");
   try {
-    Source source = {folder, record::load_run(folder)};
-    if (const auto faults = record::validate_file(folder / "run.json"); !faults.empty())
-      throw std::runtime_error((folder / "run.json").string() +
-                               " is not a run's description: " + faults.front());
-    return source;
-  } catch (const std::runtime_error& error) {
+    record::check_run(folder);
+    return {folder, record::load_run(folder)};
+  } catch (const ConfigurationError& error) {
     throw ConfigurationError(std::string("cannot merge: ") + error.what());
   }
 }

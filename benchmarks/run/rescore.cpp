@@ -3,7 +3,6 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -21,7 +20,7 @@ namespace {
 json load(const fs::path& folder) {
   try {
     return record::load_run(folder);
-  } catch (const std::runtime_error& error) {
+  } catch (const ConfigurationError& error) {
     throw ConfigurationError(std::string("cannot rescore: ") + error.what());
   }
 }

@@ -134,7 +134,7 @@ void RunDirectory::read_repetitions() {
       if (line.at("repetition").get<std::size_t>() == known.size())
         known.push_back(repetition_from_json(line));
     } catch (const json::exception&) {
-      throw std::runtime_error("a line of " + (path() / kRepetitionsFile).string() +
+      throw ConfigurationError("a line of " + (path() / kRepetitionsFile).string() +
                                " is not a repetition; start anew with --force or another --out");
     }
   }

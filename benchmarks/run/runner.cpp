@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <utility>
 
 #include "benchmarks/base/configuration_error.hpp"
@@ -82,6 +83,30 @@ std::vector<std::string> flags_of(const record::RunRecord& record,
   if (any([](const Repetition& one) { return one.unsteady; })) flags.emplace_back(record::kUnsteadyMachine);
   if (record::is_worse_than_convex_hull(record.metrics)) flags.emplace_back(record::kWorseThanConvexHull);
   return flags;
+}
+
+/// Why `work` failed; empty when it did not. An interruption, and what the user can mend, end the run.
+template <typename Work>
+std::string fault_of(const Work& work) {
+  try {
+    work();
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const ConfigurationError&) {
+    throw;
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// A run of `method` on the points; it is over where they give no parameters.
+MethodRun make_run(const std::shared_ptr<const DrawnCase>& drawn, const plan::PlanMethod& method) {
+  Parameters parameters;
+  const std::string fault = fault_of([&] { parameters = drawn->choose_parameters(method); });
+  MethodRun run(drawn, method.method, std::move(parameters));
+  if (!fault.empty()) run.fail(record::Status::kError, "the parameters cannot be chosen: " + fault);
+  return run;
 }
 
 /// What a first run loads and allocates takes milliseconds, which nobody sees in a run of this length.
@@ -214,13 +239,15 @@ class Runner {
   }
 
   /// Draws a case's points and chooses its parameters; nothing is asked of a worker, as several cases do this
-  /// at the same time.
+  /// at the same time. Points that cannot be made are its rows' failure, and the other cases are measured.
   void prepare(CaseWork& one) const {
-    one.drawn = std::make_shared<const DrawnCase>(case_of(one.runs), plan_.seed, options_.folders);
+    const plan::PlanCase& plan_case = case_of(one.runs);
+    const std::string fault = fault_of(
+        [&] { one.drawn = std::make_shared<const DrawnCase>(plan_case, plan_.seed, options_.folders); });
+    if (!one.drawn) one.drawn = std::make_shared<const DrawnCase>(plan_case, plan_.seed, fault);
     for (std::size_t i = one.runs.begin; i < one.runs.end; ++i) {
       const plan::PlanMethod& method = plan_.methods[runs_[i].method_index];
-      Entry& entry = one.entries.emplace_back(
-          Entry{i, MethodRun(one.drawn, method.method, one.drawn->choose_parameters(method))});
+      Entry& entry = one.entries.emplace_back(Entry{i, make_run(one.drawn, method)});
       entry.run.record.name = runs_[i].name;
       entry.run.record.protocol = method.protocol;
       entry.run.record.machine = machine_;
@@ -276,7 +303,7 @@ class Runner {
   std::optional<MultiPolygon> run_on_part(const Entry& entry, const std::shared_ptr<const DrawnCase>& part) {
     progress_.begin(entry.index);
     const plan::PlanMethod& method = method_of(entry);
-    MethodRun run(part, method.method, part->choose_parameters(method));
+    MethodRun run = make_run(part, method);
     run.begin(*entry.run.session, entry.run.session->info(), timeout_of(method));
     if (!run.over) bench_.attempt(run);
     return run.result;

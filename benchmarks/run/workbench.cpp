@@ -23,8 +23,8 @@ void MethodRun::begin(worker::MethodSession& its_session, const std::optional<Me
   if (!info) {
     fail(session->start_reply().status, session->start_failure());
   } else if (!drawn->missing().empty()) {
-    fail(record::Status::kNotInstalled, drawn->missing());
-  } else {
+    fail(drawn->missing_status(), drawn->missing());
+  } else if (!over) {
     try {
       record.parameters = complete_parameters(*info, record.parameters);
     } catch (const std::invalid_argument& error) {
@@ -52,6 +52,11 @@ Workbench::Workbench(fs::path scratch) : scratch_(std::move(scratch)) {
   fs::create_directories(scratch_);
 }
 
+// One after the other they would take seconds: each interpreter, virtual machine and server its own time.
+Workbench::~Workbench() {
+  for (const auto& session : sessions_) session->begin_quit();
+}
+
 void Workbench::add(worker::Method method, const worker::WorkerLimits& limits) {
   sessions_.push_back(std::make_unique<worker::MethodSession>(std::move(method), limits));
 }
@@ -73,13 +78,14 @@ void Workbench::start(Progress& progress) {
 }
 
 void Workbench::warm_up(MethodRun& run) {
-  if (!run.session->is_cold()) return;
-  const worker::Attempt cold =
-      run.session->warm_up(points_of(run), run.record.parameters, scratch_, run.timeout);
-  if (cold.status != record::Status::kOk) {
-    run.fail(cold.status, cold.detail);
-  } else if (!run.record.cold_time_ns) {
-    run.record.cold_time_ns = cold.time_ns();
+  const worker::LoadedPoints& points = points_of(run);
+  if (!run.session->is_cold(points, run.record.parameters)) return;
+  const bool is_new = !run.session->has_run();
+  const worker::Attempt first = run.session->warm_up(points, run.record.parameters, scratch_, run.timeout);
+  if (first.status != record::Status::kOk) {
+    run.fail(first.status, first.detail);
+  } else if (is_new && !run.record.cold_time_ns) {
+    run.record.cold_time_ns = first.time_ns();
   }
 }
 

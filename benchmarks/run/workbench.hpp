@@ -27,7 +27,7 @@ struct MethodRun {
 
   /// Fills in the version, the defaults of `info`'s parameters that are not given, and the id. Without info
   /// (the method does not start), without points, and with a parameter that the method does not take, the run
-  /// is over, and its status says why.
+  /// is over, and its status says why; one that is over already stays so.
   void begin(worker::MethodSession& its_session, const std::optional<MethodInfo>& info, double timeout_s);
 
   /// Nothing more is run, for this reason.
@@ -54,6 +54,10 @@ class Workbench {
  public:
   /// Files are put into the folder `scratch`, which is made where it is not there.
   explicit Workbench(fs::path scratch);
+  /// Ends all workers at the same time.
+  ~Workbench();
+  Workbench(const Workbench&) = delete;
+  Workbench& operator=(const Workbench&) = delete;
 
   /// Its worker is not started yet.
   void add(worker::Method method, const worker::WorkerLimits& limits);
@@ -67,7 +71,7 @@ class Workbench {
   void start(Progress& progress);
 
   /// Runs a method that compiles while it runs until it is steady, unless it is; the row says how long the
-  /// first call took. For who times.
+  /// first call of the process took, if that was its own. For who times.
   void warm_up(MethodRun& run);
 
   /// Runs it once. The first result is kept to be scored, and every other one must be the same, byte for

@@ -16,7 +16,10 @@ Side side_of(const Interval& interval, double limit) {
 Side side_of_times(std::span<const std::int64_t> times, std::span<const std::int64_t> others) {
   const auto ratio = ratio_of_times(others, times);
   if (!ratio) return Side::kUndecided;
-  if (ratio->interval) return side_of(*ratio->interval, 1);
+  if (ratio->interval) {
+    // An interval that ends at 1 holds it: equal times are no difference.
+    return ratio->p_value >= 1 - kConfidence ? Side::kUndecided : side_of(*ratio->interval, 1);
+  }
   const auto [least, most] = std::ranges::minmax_element(times);
   const auto [others_least, others_most] = std::ranges::minmax_element(others);
   const auto factor = [](std::int64_t longer, std::int64_t shorter) {

@@ -39,7 +39,8 @@ Side side_of(const Interval& interval, double limit);
 inline constexpr double kBeyondNoise = 10;
 
 /// Where the ratio of `times` to `others` lies beside 1, by the interval of ratio_of_times (rank_test.hpp),
-/// or without one by kBeyondNoise. Both need a value. Undecided when a time is not positive.
+/// or without one by kBeyondNoise. Both need a value. Undecided when the interval holds 1, be it as its end,
+/// and when a time is not positive.
 Side side_of_times(std::span<const std::int64_t> times, std::span<const std::int64_t> others);
 
 /// Judges quantities together: each is on the side of its interval when its p-value, after Holm's correction

@@ -1,6 +1,7 @@
 #include "benchmarks/worker/method_session.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -51,13 +52,18 @@ record::PhaseTimes read_phases(const json& body, std::initializer_list<const cha
 }
 
 /// Whether the last runs are hardly faster than those before them.
-bool is_warm(const std::vector<std::int64_t>& times) {
-  static_assert(kWarmUpRuns >= 2 * kSteadyRuns);
-  if (times.size() < kWarmUpRuns) return false;
-  const auto last = times.end() - kSteadyRuns;
+bool is_warm(const std::vector<std::int64_t>& times, const WarmUp& wanted) {
+  if (times.size() < std::max(wanted.runs, 2 * wanted.steady)) return false;
+  const auto steady = static_cast<std::ptrdiff_t>(wanted.steady);
+  const auto last = times.end() - steady;
   const auto best = static_cast<double>(*std::min_element(last, times.end()));
-  const auto best_before = static_cast<double>(*std::min_element(last - kSteadyRuns, last));
+  const auto best_before = static_cast<double>(*std::min_element(last - steady, last));
   return best >= (1 - kSteadyGain) * best_before;
+}
+
+/// Which points a method was warmed up for, and with which parameters.
+std::string warm_up_key(const LoadedPoints& points, const Parameters& parameters) {
+  return points.key + " " + record::parameters_to_json(parameters).dump();
 }
 
 }  // namespace
@@ -80,6 +86,10 @@ std::string MethodSession::start_failure() const {
                                      : start_reply_.detail + "; remedy: " + start_reply_.remedy;
 }
 
+void MethodSession::begin_quit() {
+  if (worker_) worker_->ask_to_quit();
+}
+
 bool MethodSession::quit(std::chrono::milliseconds patience) {
   const bool ended = !worker_ || worker_->quit(patience);
   worker_.reset();
@@ -88,7 +98,8 @@ bool MethodSession::quit(std::chrono::milliseconds patience) {
 
 void MethodSession::begin_start() {
   loaded_key_.clear();
-  warmed_up_ = false;
+  warmed_up_for_.clear();
+  runs_of_process_ = 0;
   worker_.reset();
   for (const std::string& file : method_.needs) {
     if (fs::exists(file)) continue;
@@ -175,6 +186,7 @@ Attempt MethodSession::run(const LoadedPoints& points, const Parameters& paramet
   const fs::path result = scratch / ("result-" + nonce + ".wkb");
   const bool watches_memory =
       watch == Watch::kMemory && !info_->capabilities.in_server && worker_->reset_peak_memory();
+  ++runs_of_process_;
   const Reply reply = worker_->request({{"request", "run"},
                                         {"nonce", nonce},
                                         {"parameters", record::parameters_to_json(parameters)},
@@ -191,18 +203,23 @@ Attempt MethodSession::run(const LoadedPoints& points, const Parameters& paramet
   return attempt;
 }
 
+bool MethodSession::is_cold(const LoadedPoints& points, const Parameters& parameters) const {
+  return is_cold() || (method_.jit && !warmed_up_for_.contains(warm_up_key(points, parameters)));
+}
+
 Attempt MethodSession::warm_up(const LoadedPoints& points, const Parameters& parameters,
                                const fs::path& scratch, std::chrono::milliseconds timeout) {
-  const auto end = std::chrono::steady_clock::now() + kWarmUpTime;
+  const WarmUp wanted = is_cold() ? kWarmUpOfProcess : kWarmUpOfCase;
+  const auto end = std::chrono::steady_clock::now() + wanted.time;
   Attempt first = run(points, parameters, scratch, timeout);
   if (first.status != record::Status::kOk) return first;
   std::vector<std::int64_t> times = {first.time_ns()};
-  while (!is_warm(times) && std::chrono::steady_clock::now() < end) {
+  while (!is_warm(times, wanted) && std::chrono::steady_clock::now() < end) {
     Attempt next = run(points, parameters, scratch, timeout);
     if (next.status != record::Status::kOk) return next;
     times.push_back(next.time_ns());
   }
-  warmed_up_ = true;
+  warmed_up_for_.insert(warm_up_key(points, parameters));
   return first;
 }
 

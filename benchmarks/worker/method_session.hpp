@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,13 +22,21 @@ namespace hullbench::worker {
 /// How long a worker may take to say who it is; a method may have to start a server.
 inline constexpr std::chrono::seconds kStartTimeout{60};
 
-/// A method that compiles while it runs is warm after so many runs at least, when the best of the last ones
-/// is less than this part below the best of as many before them. It gets no more than this time for that.
-/// Compilers count calls and have several stages: Java's times stay the same for some runs, and then halve.
-inline constexpr std::size_t kWarmUpRuns = 100;
-inline constexpr std::size_t kSteadyRuns = 25;
+/// When a method that compiles while it runs is warm: after so many `runs` at least, when the best of the
+/// last `steady` ones is less than kSteadyGain below the best of as many before them. It gets no more than
+/// `time` for that. Compilers count calls and have several stages: Java's times stay the same for some runs,
+/// and then halve.
+struct WarmUp {
+  std::size_t runs;
+  std::size_t steady;
+  std::chrono::seconds time;
+};
 inline constexpr double kSteadyGain = 0.03;
-inline constexpr std::chrono::seconds kWarmUpTime{8};
+/// Of a new process.
+inline constexpr WarmUp kWarmUpOfProcess{100, 25, std::chrono::seconds(8)};
+/// Of a process for other points or parameters: other sizes and switches run code that is not compiled yet,
+/// or was compiled for what came before.
+inline constexpr WarmUp kWarmUpOfCase{20, 5, std::chrono::seconds(1)};
 
 /// The largest result that is read, in bytes: far above any polygon of the points that fit the memory limit.
 inline constexpr std::size_t kMaxResultBytes = std::size_t{1} << 30;
@@ -88,12 +97,18 @@ class MethodSession {
 
   /// Whether the method compiles while it runs (Method::jit) and its process, of now or to come, was not
   /// warmed up.
-  bool is_cold() const { return method_.jit && (!warmed_up_ || !worker_ || !worker_->alive()); }
-  /// Runs the method until it gets no faster, or for kWarmUpTime. Returns the first run, whose time is
-  /// that of a cold process, or the first one that failed, which ends it. Throws Interrupted.
+  bool is_cold() const { return method_.jit && (warmed_up_for_.empty() || !worker_ || !worker_->alive()); }
+  /// The same for these points and parameters.
+  bool is_cold(const LoadedPoints& points, const Parameters& parameters) const;
+  /// Whether its process, of now or to come, has run already, in vain or not.
+  bool has_run() const { return runs_of_process_ > 0 && worker_ && worker_->alive(); }
+  /// Runs the method until it gets no faster: by kWarmUpOfProcess if is_cold(), else by kWarmUpOfCase.
+  /// Returns the first run, or the first one that failed, which ends it. Throws Interrupted.
   Attempt warm_up(const LoadedPoints& points, const Parameters& parameters, const fs::path& scratch,
                   std::chrono::milliseconds timeout);
 
+  /// Asks the worker to end, without waiting.
+  void begin_quit();
   /// Asks the worker to end, waits at most `patience` and kills it then. Whether it ended by itself; the next
   /// run starts another one.
   bool quit(std::chrono::milliseconds patience);
@@ -110,7 +125,8 @@ class MethodSession {
   std::string loaded_key_;  ///< of the points the worker has; empty: none
   record::PhaseTimes load_phases_;
   std::uint64_t run_count_ = 0;
-  bool warmed_up_ = false;  ///< the process that runs
+  std::uint64_t runs_of_process_ = 0;    ///< of the one that runs
+  std::set<std::string> warmed_up_for_;  ///< points and parameters, as the process that runs had them
 };
 
 /// Writes `points` into a file in `folder`, which has the points of one case at a time. Throws

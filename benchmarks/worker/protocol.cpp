@@ -19,8 +19,9 @@ static_assert(std::endian::native == std::endian::little,
               "points files are little-endian and copied as they are");
 static_assert(sizeof(Point) == 2 * sizeof(double), "a point is two doubles without padding");
 
-double number_from_json(const json& value) {
-  if (value.is_null()) return std::numeric_limits<double>::infinity();
+/// A number; `none` for null.
+double number_from_json(const json& value, double none = std::numeric_limits<double>::infinity()) {
+  if (value.is_null()) return none;
   if (!value.is_number()) throw std::invalid_argument("a number or null was expected, not " + value.dump());
   return value.get<double>();
 }
@@ -40,7 +41,7 @@ ParameterInfo parameter_from_json(const json& source) {
   source.at("name").get_to(parameter.name);
   source.at("unit").get_to(parameter.unit);
   source.at("description").get_to(parameter.description);
-  parameter.minimum = number_from_json(source.at("minimum"));
+  parameter.minimum = number_from_json(source.at("minimum"), -std::numeric_limits<double>::infinity());
   parameter.maximum = number_from_json(source.at("maximum"));
   if (source.contains("default")) parameter.default_value = number_from_json(source.at("default"));
   return parameter;

@@ -409,10 +409,15 @@ Reply WorkerProcess::lost_output() {
   return broken_protocol("closed its output");
 }
 
-bool WorkerProcess::quit(std::chrono::milliseconds patience) {
-  if (!alive()) return true;
+void WorkerProcess::ask_to_quit() {
+  if (input_ < 0) return;  // it is gone, or was asked
   write_all(input_, json({{"request", "quit"}}).dump() + "\n");
   close_fd(input_);
+}
+
+bool WorkerProcess::quit(std::chrono::milliseconds patience) {
+  if (!alive()) return true;
+  ask_to_quit();
   if (reap_within(patience)) return true;
   kill();
   return false;

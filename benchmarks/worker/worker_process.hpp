@@ -70,6 +70,8 @@ class WorkerProcess {
   /// when the system does not tell.
   std::optional<std::int64_t> peak_memory_bytes() const;
 
+  /// Asks it to end, without waiting, so that several can end at the same time.
+  void ask_to_quit();
   /// Asks it to end, waits at most `patience` and kills it then. Whether it ended by itself.
   bool quit(std::chrono::milliseconds patience);
   /// Ends it and every process of its session's group: SIGTERM, and SIGKILL after a short grace.
