@@ -49,7 +49,8 @@ class Triangles:
                                         shape=(len(radii), len(radii)))
         joins = numpy.sort(scipy.sparse.csgraph.minimum_spanning_tree(pairs.tocsr()).data)
         reached = numpy.full(len(self.points), numpy.inf)  # of a point: the least radius of its triangles
-        numpy.minimum.at(reached, self.corners, radii[:, None])
+        falling = numpy.argsort(-radii)
+        reached[self.corners[falling]] = radii[falling, None]  # of an index that is there again the last value stays
         candidates = numpy.unique(radii)
         regions = (numpy.searchsorted(numpy.sort(radii), candidates, side="right")
                    - numpy.searchsorted(joins, candidates, side="right"))

@@ -35,11 +35,15 @@ async function methods(folder) {
   const polylidar = await from_file(join(resolve(folder), "polylidar.js"));
   const [concaveman, Delaunator] = [await installed("concaveman"), await installed("delaunator")];
   return {
-    "`concaveHull`": ({ xy }) => polylidar.concaveHull(xy),
-    "`concaveHull`, `maxEdgeLength`": ({ xy }) => polylidar.concaveHull(xy, { maxEdgeLength: 4 / Math.sqrt(xy.length / 2) }),
+    "`concaveHull`": ({ xy }) => polylidar.concaveHull(xy).coordinates,
+    "`concaveHull`, `maxEdgeLength`": ({ xy }) =>
+      polylidar.concaveHull(xy, { maxEdgeLength: 4 / Math.sqrt(xy.length / 2) }).coordinates,
     "`concaveman` of this package": ({ pairs }) => polylidar.concaveman(pairs),
     [`concaveman ${version("concaveman")}`]: ({ pairs }) => concaveman(pairs),
-    [`delaunator ${version("delaunator")}, triangles only`]: ({ xy }) => new Delaunator(xy),
+    [`delaunator ${version("delaunator")}, triangles only`]: (points) => {
+      points.delaunator ??= new Delaunator(points.xy); // its memory is kept, as that of `concaveHull`
+      points.delaunator.update();
+    },
   };
 }
 
