@@ -65,7 +65,7 @@ def _area(curve: tuple[np.ndarray, np.ndarray], low: float, high: float) -> floa
 
 def _solved_chart(curves, named: Sequence[Series], ends: tuple[float, float], size: tuple[int, int], css: str) -> str:
     every = list(curves)
-    right = 12 + 1.12 * svg.LETTER * max(len(short_name(one, every)) for one in named)  # bold
+    right = 12 + max(svg.width_of(short_name(one, every), True) for one in named)
     chart = svg.Chart.of(size, right, ends, (0, 100), False)
     body = []
     for one in [*(other for other in every if other not in named), *reversed(named)]:
@@ -133,7 +133,8 @@ def _time_error_chart(times, errors, shown: Sequence[Series], front: Sequence[in
     names = [short_name(shown[i], every) for i in order]
     box = (chart.x.start, chart.y.end - 6, chart.width - 2.0, chart.y.start)
     line = [(chart.x(a), chart.y(b)) for a, b in corners]
-    found = svg.beside([places[i] for i in order], names, places, line, box)
+    widths = [svg.width_of(name, shown[i] in on_front) for i, name in zip(order, names)]
+    found = svg.beside([places[i] for i in order], widths, places, line, box)
     for i, name, at in zip(order, names, found):
         one = shown[i]
         filled = "" if one.protocol == "paper" else ";fill:var(--panel)"

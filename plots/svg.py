@@ -3,13 +3,17 @@ properties, so the charts follow its theme."""
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from matplotlib.font_manager import FontProperties
+from matplotlib.textpath import text_to_path
+
 from report_common import number, text
 
-LETTER = 6.1  # mean width of a letter of the page's 11.5 pixels
+_FONT_SIZE = 11.5
 # Of a name from its mark, the best first.
 _OFFSETS = ((8, 4), (6, -6), (6, 14), (2, -9), (2, 17))
 _LINE = 14.0  # between the names under each other
@@ -89,6 +93,13 @@ class Chart:
         return f"<circle class='{css}' {at} style='{style}'><title>{text(title)}</title></circle>"
 
 
+@functools.cache
+def width_of(name: str, bold: bool) -> float:
+    """Of a name beside a mark, in pixels. That of DejaVu Sans, the widest of the page's fonts."""
+    font = FontProperties(family="DejaVu Sans", weight="bold" if bold else "normal", size=_FONT_SIZE)
+    return text_to_path.get_text_width_height_descent(name, font, ismath=False)[0]
+
+
 def number_of(value: float) -> str:
     """0.1, 20, 1000: a tick's text."""
     return f"{value:g}" if value < 1e6 else number(value)
@@ -109,19 +120,19 @@ def apart(places: Sequence[float], low: float, high: float) -> list[float]:
 
 def beside(
     places: Sequence[tuple[float, float]],
-    names: Sequence[str],
+    widths: Sequence[float],
     taken: Sequence[tuple[float, float]],
     line: Sequence[tuple[float, float]],
     box: tuple[float, float, float, float],
 ) -> list[tuple[float, float, str] | None]:
-    """Where each name may stand, as (x, baseline, text-anchor), without covering another one, a mark in `taken` or the line,
-    whose parts go across or down; None: there is no room. `box`: left, top, right, bottom. The first names choose first."""
+    """Where a name of each width may stand, as (x, baseline, text-anchor), without covering another one, a mark in `taken`
+    or the line, whose parts go across or down; None: there is no room. `box`: left, top, right, bottom. The first choose
+    first."""
     covered = [(x - 4, y - 4, x + 4, y + 4) for x, y in taken]
     for (x1, y1), (x2, y2) in zip(line, line[1:]):
         covered.append((min(x1, x2) - 1, min(y1, y2) - 1, max(x1, x2) + 1, max(y1, y2) + 1))
     found: list[tuple[float, float, str] | None] = []
-    for (x, y), name in zip(places, names):
-        width = LETTER * len(name)
+    for (x, y), width in zip(places, widths):
         choices = [(x + reach, y + up, "start") for reach, up in _OFFSETS]
         choices += [(x - reach, y + up, "end") for reach, up in _OFFSETS]
         chosen = None

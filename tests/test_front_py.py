@@ -123,18 +123,23 @@ class Charts(unittest.TestCase):
         places = svg.apart([50.0, 50.0, 51.0, 200.0], 0, 200)
         self.assertTrue(all(b - a >= 13.9 for a, b in zip(sorted(places), sorted(places)[1:])))
         self.assertLessEqual(max(places), 200)
-        names = ["first", "second", "third"]
-        found = svg.beside([(50, 50), (52, 51), (54, 52)], names, [(50, 50), (52, 51), (54, 52)], [], (0, 0, 300, 300))
-        placed = [(one, name) for one, name in zip(found, names) if one]
+        widths = [svg.width_of(name, False) for name in ("CGAL Delaunay", "CGAL (auto)", "third")]
+        marks = [(50, 50), (52, 51), (54, 52), (50 + widths[0], 51)]
+        found = svg.beside(marks[:3], widths, marks, [], (0, 0, 300, 300))
+        placed = [(one, width) for one, width in zip(found, widths) if one]
         self.assertGreater(len(placed), 1)
         areas = []
-        for (x, y, anchor), name in placed:
-            left = x if anchor == "start" else x - svg.LETTER * len(name)
-            areas.append((left, y - 10, left + svg.LETTER * len(name), y + 2))
+        for (x, y, anchor), width in placed:
+            left = x if anchor == "start" else x - width
+            areas.append((left, y - 10, left + width, y + 2))
         for k, (left, top, right, bottom) in enumerate(areas):
             for other in areas[:k]:
                 self.assertFalse(left < other[2] and other[0] < right and top < other[3] and other[1] < bottom, areas)
-        self.assertEqual(svg.beside([(5, 5)], ["far too long"], [], [], (0, 0, 30, 30)), [None])
+        self.assertEqual(svg.beside([(5, 5)], [40], [], [], (0, 0, 30, 30)), [None])
+
+    def test_capitals_are_wider(self) -> None:
+        self.assertGreater(svg.width_of("CGAL", False), 1.5 * svg.width_of("till", False))
+        self.assertGreater(svg.width_of("CGAL", True), svg.width_of("CGAL", False))
 
 
 class League(unittest.TestCase):

@@ -1,6 +1,7 @@
 // From the comparison's numbers to what ECharts draws. Nothing here changes the page.
 import { caseChartOptions, commonOptions, logTicks } from "./chart_options.js";
 import { formatNumber } from "./format.js";
+import { LABEL_SIZE, textWidth } from "./label_places.js";
 import { markerPath } from "./markers.js";
 
 // Only what is significant has a colour and a filled sign; the others are drawn in grey, hollow.
@@ -14,7 +15,6 @@ export const CHANGE_MARKS = {
 };
 
 const FOREST_ROW = 22;
-const LABEL_SIZE = 12;
 
 /** The height of a forest plot of so many lines, in pixels. */
 export function forestHeight(count) {
@@ -105,13 +105,6 @@ export function forestOptions(lines, ink, width) {
 
 function ratioTick(value) {
   return value >= 0.01 && value < 10 ? value.toFixed(2) : String(Number(value.toPrecision(3)));
-}
-
-/** The width of a label in pixels. */
-function textWidth(words, bold) {
-  textWidth.pen ??= document.createElement("canvas").getContext("2d");
-  textWidth.pen.font = `${bold ? "600 " : ""}${LABEL_SIZE}px ${getComputedStyle(document.body).fontFamily}`;
-  return textWidth.pen.measureText(words).width;
 }
 
 /** Labels are rich text in ECharts: braces and bars of a record must not become styles. */

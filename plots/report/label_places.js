@@ -1,7 +1,16 @@
-// Where the names of dots fit: right of a dot, left, above or below, whichever is free first; nowhere if none is.
+// How wide a label is, and where the names of dots fit: right of a dot, left, above or below, whichever is free first;
+// nowhere if none is.
 
+export const LABEL_SIZE = 12;
 const LABEL_HEIGHT = 15;
 const DOT = 9;
+
+/** The width of a label in pixels. */
+export function textWidth(words, bold) {
+  textWidth.pen ??= document.createElement("canvas").getContext("2d");
+  textWidth.pen.font = `${bold ? "600 " : ""}${LABEL_SIZE}px ${getComputedStyle(document.body).fontFamily}`;
+  return textWidth.pen.measureText(words).width;
+}
 
 /**
  * The position of every dot's label. `dots` are {x, y, words} in pixels, `box` the drawing's {width, height}; a position
@@ -11,7 +20,7 @@ export function placeLabels(dots, box) {
   const around = ({ x, y }, wide, high) => ({ left: x - wide, right: x + wide, top: y - high, bottom: y + high });
   const taken = dots.map((dot) => around(dot, DOT, DOT));
   return dots.map((dot, own) => {
-    const [wide, high] = [3.4 * dot.words.length, LABEL_HEIGHT / 2];
+    const [wide, high] = [textWidth(dot.words, false) / 2, LABEL_HEIGHT / 2];
     const moved = (right, down) => around({ x: dot.x + right * (DOT + wide), y: dot.y + down * (DOT + high) }, wide, high);
     const rects = { right: moved(1, 0), left: moved(-1, 0), top: moved(0, -1), bottom: moved(0, 1) };
     const inside = (rect) => rect.left >= 0 && rect.right <= box.width && rect.top >= 0 && rect.bottom <= box.height;

@@ -1,5 +1,6 @@
 // Time against error: who is beaten in both, and who is not.
 import { commonOptions, numericAxis, pointValue } from "./chart_options.js";
+import { LABEL_SIZE } from "./label_places.js";
 import { markerPath } from "./markers.js";
 
 /**
@@ -100,7 +101,7 @@ export function paretoOptions(entries, time, error, settings, ink) {
           distance: 4,
           backgroundColor: ink.panel,
           color: ink.ink,
-          fontSize: 12,
+          fontSize: LABEL_SIZE,
           formatter: (dot) => dot.seriesName,
         },
         emphasis: { scale: 1.3 },
