@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -96,6 +97,18 @@ inline void expect_adapter_contract(const MakeAdapter& make, const Parameters& p
   for (const Parameters& each : {parameters, others}) expect_nothing_without_area(make, each);
   expect_duplicates_to_be_ignored(make, parameters);
   expect_bad_arguments_to_be_refused(make, parameters);
+}
+
+/// The hull of a square with a hole, which the parameters `filled` fill and `open` keep.
+inline void expect_hole_to_be_filled_or_kept(Adapter& adapter, const Parameters& filled,
+                                             const Parameters& open) {
+  const std::vector<Point> points = square_points(kPoints, 7, true);
+  for (const std::size_t holes : {0U, 1U}) {
+    const MultiPolygon hull = hull_of(adapter, points, holes == 0 ? filled : open);
+    EXPECT_EQ(hole_count(hull), holes);
+    EXPECT_NEAR(polylidar::area(hull), 1 - static_cast<double>(holes) * kHoleArea, kAreaTolerance);
+    EXPECT_TRUE(hull.size() == 1 || adapter.info().capabilities.several_polygons);
+  }
 }
 
 }  // namespace hullbench::testing

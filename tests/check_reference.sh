@@ -83,14 +83,14 @@ echo 'see results/2026-01-01-01234567/report.html' >README.md
 echo '{"plans": ["states"]}' >results/evaluation/runs/suite.json
 sed -i 's/^{/{"plan": {"methods": [{"method": "a", "parameters": {"b": 1}}]}, /' results/evaluation/runs/states/run.json
 cat >results/evaluation/runs/states/runs.jsonl <<'ROW'
-{"id": "0", "metrics": {"l2": 0.1234567891234, "perimeter": 3}, "name": "a/b", "parameters": {"b": 1}, "time_ns": [5]}
+{"id": "0", "metrics": {"l2": 0.1234567891234, "perimeter": 3}, "name": "a/b", "output_sha256": "0123456789abcdef", "parameters": {"b": 1}, "time_ns": [5]}
 ROW
 results/keep_reference.sh run >/dev/null
 refuses "cannot be kept" results/keep_league.py nowhere unkept
 [ ! -e unkept ] || { echo "FAIL: a folder is left of what could not be kept" >&2; exit 1; }
 league=results/reference/league
 [ "$(xzcat $league/states/runs.jsonl.xz)" = \
-  '{"metrics":{"l2":0.123456789},"name":"a/b","output_sha256":"","parameters":{},"phases_ns":[],"time_ns":[]}' ] &&
+  '{"metrics":{"l2":0.123456789},"name":"a/b","output_sha256":"0123456789ab","parameters":{},"phases_ns":[],"time_ns":[]}' ] &&
   [ -f $league/suite.json ] && ! grep -q parameters $league/states/run.json || {
   echo "FAIL: the league's rows were not kept" >&2
   exit 1

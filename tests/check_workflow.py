@@ -43,6 +43,15 @@ def make_faults(workflow, targets, needed):
         yield f"no job calls 'make {target}'"
 
 
+def permission_faults(workflow, publishers=()):
+    """Nobody but the jobs that publish may do more than read."""
+    if workflow.get("permissions") != {"contents": "read"}:
+        yield "the workflow may do more than read"
+    for name, job in workflow["jobs"].items():
+        if name not in publishers and "permissions" in job:
+            yield f"job {name} may do more than read"
+
+
 def ci_faults(workflow, targets):
     yield from make_faults(workflow, targets, CI_NEEDS)
     for event in ("push", "pull_request"):
@@ -63,8 +72,6 @@ def release_faults(workflow, targets):
     yield from make_faults(workflow, targets, RELEASE_NEEDS)
     if set(events(workflow)) != {"push"} or set(events(workflow)["push"]) != {"tags"}:
         yield "the workflow does not run on tags alone"
-    if workflow.get("permissions") != {"contents": "read"}:
-        yield "the workflow may do more than read"
     runs = [step.get("run", "") for _, _, step in steps(workflow)]
     if not any("check.sh version" in run for run in runs):
         yield "no job checks the version"
@@ -76,11 +83,10 @@ def release_faults(workflow, targets):
     publishers = {name for name, _, step in steps(workflow) if "gh release create" in step.get("run", "")}
     if len(publishers) != 1:
         yield f"{len(publishers)} jobs make a release, not one"
-    for name, job in workflow["jobs"].items():
-        if name in publishers and set(job.get("needs", [])) != set(workflow["jobs"]) - publishers:
+    yield from permission_faults(workflow, publishers)
+    for name in publishers:
+        if set(workflow["jobs"][name].get("needs", [])) != set(workflow["jobs"]) - publishers:
             yield f"job {name} does not wait for all others"
-        if name not in publishers and "permissions" in job:
-            yield f"job {name} may do more than read"
     for name, _, step in steps(workflow):
         if "upload-artifact" in step.get("uses", "") and step["with"].get("if-no-files-found") != "error":
             yield f"job {name} may upload nothing"
@@ -90,8 +96,7 @@ def fuzz_faults(workflow, targets):
     yield from make_faults(workflow, targets, {"fuzz"})
     if "schedule" not in events(workflow):
         yield "the workflow does not run by itself"
-    if workflow.get("permissions") != {"contents": "read"}:
-        yield "the workflow may do more than read"
+    yield from permission_faults(workflow)
     seconds = [int(n) for _, _, step in steps(workflow) for n in re.findall(r"make fuzz SECONDS=(\d+)", step.get("run", ""))]
     if not seconds or min(seconds) < LEAST_FUZZING:
         yield f"a target is searched with for less than {LEAST_FUZZING} seconds"
@@ -101,14 +106,10 @@ def site_faults(workflow, targets):
     yield from make_faults(workflow, targets, {"site"})
     if "pull_request" in events(workflow):
         yield "a pull request would publish"
-    if workflow.get("permissions") != {"contents": "read"}:
-        yield "the workflow may do more than read"
     publishers = {name for name, _, step in steps(workflow) if "deploy-pages" in step.get("uses", "")}
     if len(publishers) != 1:
         yield f"{len(publishers)} jobs publish pages, not one"
-    for name, job in workflow["jobs"].items():
-        if name not in publishers and "permissions" in job:
-            yield f"job {name} may do more than read"
+    yield from permission_faults(workflow, publishers)
     if not any(step.get("with", {}).get("path") == "build/site" for _, _, step in steps(workflow)):
         yield "no job hands build/site on"
 

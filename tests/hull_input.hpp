@@ -36,6 +36,7 @@ namespace hullbench::testing {
 
 using polylidar::testing::canonical;
 using polylidar::testing::core_hull;
+using polylidar::testing::hole_count;
 
 /// Steps for callers that time nothing.
 class NoSteps final : public Steps {
@@ -94,12 +95,6 @@ inline Parameters parameters_of(const polylidar::Options& options) {
   if (options.max_edge_length) parameters["max_edge_length"] = *options.max_edge_length;
   if (options.max_perimeter) parameters["max_perimeter"] = *options.max_perimeter;
   return parameters;
-}
-
-inline std::size_t hole_count(const MultiPolygon& shape) {
-  std::size_t holes = 0;
-  for (const Polygon& polygon : shape) holes += polygon.holes.size();
-  return holes;
 }
 
 /// Inputs without an area, each with the name a failing test prints.

@@ -217,16 +217,22 @@ MultiPolygon canonical(MultiPolygon shape) {
   return shape;
 }
 
-double area_tolerance(const std::vector<Point>& points) {
+bool is_unique(std::span<const Point> points, const Triangulation& triangulation) {
+  const std::vector<std::uint32_t>& twins = triangulation.halfedges;
+  const auto at = [&](std::size_t half_edge) { return points[triangulation.triangles[half_edge]]; };
+  for (std::size_t e = 0; e < twins.size(); ++e) {
+    if (twins[e] == kNone) continue;
+    const std::size_t first = e - e % 3;
+    const std::size_t opposite = twins[e] - twins[e] % 3 + (twins[e] + 2) % 3;
+    if (incircle(at(first), at(first + 1), at(first + 2), at(opposite)) == 0) return false;
+  }
+  return true;
+}
+
+double area_tolerance(std::span<const Point> points) {
   const Box box = bounding_box(points);
   const double extent = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
   return points.empty() ? 0 : 1e-12 * extent * extent;
-}
-
-std::size_t hole_count(const MultiPolygon& shape) {
-  std::size_t count = 0;
-  for (const Polygon& polygon : shape) count += polygon.holes.size();
-  return count;
 }
 
 Ring convex_corners(std::vector<Point> points) {

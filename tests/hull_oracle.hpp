@@ -43,12 +43,20 @@ MultiPolygon core_hull(std::span<const Point> points, const Options& options);
 /// equal for equal shapes.
 MultiPolygon canonical(MultiPolygon shape);
 
+/// Whether no four points of two neighbouring triangles lie on a circle, so that the Delaunay triangulation
+/// is the only one. `points` are in the predicates' range.
+bool is_unique(std::span<const Point> points, const Triangulation& triangulation);
+
 /// How far areas of shapes of `points` may be off by rounding: some thousand terms, each off by at most an
 /// ulp of the squared extent.
-double area_tolerance(const std::vector<Point>& points);
+double area_tolerance(std::span<const Point> points);
 
 /// The number of holes of all polygons.
-std::size_t hole_count(const MultiPolygon& shape);
+inline std::size_t hole_count(const MultiPolygon& shape) {
+  std::size_t count = 0;
+  for (const Polygon& polygon : shape) count += polygon.holes.size();
+  return count;
+}
 
 /// The convex hull's corners by a monotone chain, counter-clockwise from the lexicographically smallest.
 /// `points` are in the predicates' range and not all equal.

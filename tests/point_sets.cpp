@@ -110,8 +110,6 @@ std::vector<Point> shuffled(std::vector<Point> points, std::uint64_t seed) {
   return points;
 }
 
-namespace {
-
 std::vector<Point> transformed(std::vector<Point> points, double scale, Point offset) {
   for (Point& point : points) point = {scale * point.x + offset.x, scale * point.y + offset.y};
   return points;
@@ -121,6 +119,14 @@ std::vector<Point> joined(std::vector<Point> points, const std::vector<Point>& m
   points.insert(points.end(), more.begin(), more.end());
   return points;
 }
+
+std::vector<Point> repeated(const std::vector<Point>& points, std::size_t times) {
+  std::vector<Point> copies;
+  for (std::size_t i = 0; i < times; ++i) copies.insert(copies.end(), points.begin(), points.end());
+  return copies;
+}
+
+namespace {
 
 std::vector<Point> clusters(std::size_t count, std::uint64_t seed) {
   Random random(seed);
@@ -225,7 +231,7 @@ std::vector<PointSet> repeating_sets() {
     signed_zeros.push_back({-0.0, static_cast<double>(i)});
   }
   return {{"a few duplicates", joined(uniform_points(300, 20), {base[0], base[0], base[1]})},
-          {"every point three times", shuffled(joined(joined(base, base), base), 5)},
+          {"every point three times", shuffled(repeated(base, 3), 5)},
           {"small integers with many repeats", integer_points(2000, 22, 12)},
           {"zeros of both signs", signed_zeros}};
 }

@@ -47,8 +47,28 @@ inline double distance(const Point& a, const Point& b) {
   return std::hypot(b.x - a.x, b.y - a.y);
 }
 
+/// Of a triangle that is counter-clockwise.
+inline double circumradius(const Point& a, const Point& b, const Point& c) {
+  const double cross = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  return distance(a, b) * distance(b, c) * distance(c, a) / (2 * cross);
+}
+
 /// `count` points, uniform in the square [0, side)^2.
 std::vector<Point> uniform_points(std::size_t count, std::uint64_t seed, double side = 1);
+
+/// The first `count` of uniform points of a rectangle with a corner at the origin that `is_kept` takes, which
+/// is asked with the random numbers too.
+template <class IsKept>
+std::vector<Point> points_where(std::size_t count, std::uint64_t seed, double width, double height,
+                                const IsKept& is_kept) {
+  Random random(seed);
+  std::vector<Point> points;
+  while (points.size() < count) {
+    const Point p{random.between(0, width), random.between(0, height)};
+    if (is_kept(p, random)) points.push_back(p);
+  }
+  return points;
+}
 
 /// `count` points with integer coordinates in [0, side): exact under translation, mirroring and doubling.
 std::vector<Point> integer_points(std::size_t count, std::uint64_t seed, std::int64_t side);
@@ -87,6 +107,15 @@ std::vector<Point> circle(std::size_t count, double radius, Point centre = {});
 
 /// All integer points at distance exactly sqrt(squared_radius) from the origin.
 std::vector<Point> integer_circle(std::int64_t squared_radius);
+
+/// `points` that are `scale` times as large and then moved by `offset`.
+std::vector<Point> transformed(std::vector<Point> points, double scale, Point offset);
+
+/// `points` and then `more`.
+std::vector<Point> joined(std::vector<Point> points, const std::vector<Point>& more);
+
+/// `points` so many times, one copy after another.
+std::vector<Point> repeated(const std::vector<Point>& points, std::size_t times);
 
 /// `points` in an order drawn from `seed`.
 std::vector<Point> shuffled(std::vector<Point> points, std::uint64_t seed);

@@ -130,6 +130,17 @@ TEST_F(AdapterCommandTest, TheContractSaysWhatToMend) {
              4, "", "keeps part of the contract: 1 of 3 points");
 }
 
+TEST_F(AdapterCommandTest, APolygonOfPointsThatAreNotFiniteIsToBeRefused) {
+  python_method("    return [[[(0, 0), (1, 0), (0, 1)]]]");
+  std::string helper = read_text(methods() / "hullbench_worker.py");
+  const std::string check = "if not finite.all():";
+  ASSERT_NE(helper.find(check), std::string::npos);
+  write_text(methods() / "hullbench_worker.py",
+             helper.replace(helper.find(check), check.size(), "if False:"));
+  for (const char* point : {"a point that is not a number", "a point at infinity"})
+    expect_broken(point, "1 polygon, 0 holes; refuse it in 'load' as 'invalid_argument'");
+}
+
 TEST_F(AdapterCommandTest, WhatIsPrintedDoesNotBreakTheProtocol) {
   python_method("    print('hello'); import sys; print('there', file=sys.stderr); return []");
   const Outcome tested = test_sample();

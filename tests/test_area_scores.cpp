@@ -53,8 +53,21 @@ TEST(AreaScores, EveryDataSetIsValidAndPerfectAgainstItself) {
       EXPECT_TRUE(scores.valid) << name << ": " << scores.invalid_reason;
       EXPECT_EQ(scores.l2, 0) << name;
       EXPECT_GT(scores.ground_truth_convexity, 0) << name;
-      EXPECT_LE(scores.ground_truth_convexity, 1 + 1e-12) << name;  // rounding of two areas
+      EXPECT_LE(scores.ground_truth_convexity, 1) << name;
     }
+  }
+}
+
+TEST(AreaScores, NoShapeIsMoreThanConvex) {
+  for (int corners = 3; corners < 100; ++corners) {
+    MultiPolygon shape(1);
+    for (int i = 0; i < corners; ++i) {
+      const double angle = 6.283 * i / corners;
+      shape[0].shell.push_back({1000 + std::cos(angle), 2000 + std::sin(angle)});
+    }
+    const double convexity = metrics::area_scores(shape, shape).ground_truth_convexity;
+    EXPECT_LE(convexity, 1) << corners;
+    EXPECT_GT(convexity, 1 - 1e-9) << corners;
   }
 }
 

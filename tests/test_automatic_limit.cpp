@@ -51,26 +51,24 @@ std::vector<Point> mapped(std::vector<Point> points, const Map& map) {
 /// Uniform points of the square [0, 10)^2 without a disc of radius 2 in its middle, and of a square of side 2
 /// at a distance of 2 from it.
 std::vector<Point> ring_and_island(std::size_t count, std::uint64_t seed) {
-  testing::Random random(seed);
-  std::vector<Point> points;
-  while (points.size() < count) {
-    const Point p{random.between(0, 14), random.between(0, 10)};
+  return testing::points_where(count, seed, 14, 10, [](const Point& p, testing::Random&) {
     const bool in_square = p.x < 10 && std::hypot(p.x - 5, p.y - 5) > 2;
-    if (in_square || (p.x > 12 && p.y > 4 && p.y < 6)) points.push_back(p);
-  }
-  return points;
+    return in_square || (p.x > 12 && p.y > 4 && p.y < 6);
+  });
 }
 
 /// Points of the unit square, `ratio` times as far apart at its right side as at its left.
 std::vector<Point> sparser_to_the_right(std::size_t count, double ratio, std::uint64_t seed) {
-  testing::Random random(seed);
-  std::vector<Point> points;
-  while (points.size() < count) {
-    const Point p{random.between(0, 1), random.between(0, 1)};
+  return testing::points_where(count, seed, 1, 1, [&](const Point& p, testing::Random& random) {
     const double spacing = 1 + (ratio - 1) * p.x;
-    if (random.between(0, 1) < 1 / (spacing * spacing)) points.push_back(p);
-  }
-  return points;
+    return random.between(0, 1) < 1 / (spacing * spacing);
+  });
+}
+
+/// `points`, and `count` uniform ones of the square with this side and lower left corner.
+std::vector<Point> with_square(const std::vector<Point>& points, std::size_t count, std::uint64_t seed,
+                               double side, Point corner) {
+  return testing::joined(points, testing::transformed(testing::uniform_points(count, seed, side), 1, corner));
 }
 
 // when it is chosen, and when not
@@ -290,9 +288,7 @@ TEST_P(AutomaticLimitRelations, PlaceAndOrderDoNotMatter) {
 
 // They move the borders of blocks.
 TEST_P(AutomaticLimitRelations, RepeatsMatterNoMoreThanNoise) {
-  std::vector<Point> repeated;
-  for (int i = 0; i < 60; ++i) repeated.insert(repeated.end(), points_.begin(), points_.end());
-  repeated = testing::shuffled(repeated, GetParam());
+  const std::vector<Point> repeated = testing::shuffled(testing::repeated(points_, 60), GetParam());
   EXPECT_NEAR(median_size(repeated) / median_size(points_), 1, 0.2);
   EXPECT_NEAR(area(checked_hull(repeated)) / area(to_coordinates(shape_, points_)), 1, 0.05);
 }
@@ -301,12 +297,9 @@ INSTANTIATE_TEST_SUITE_P(Seeds, AutomaticLimitRelations,
                          ::testing::Range(std::uint64_t{0}, std::uint64_t{12}));
 
 TEST(AutomaticLimit, IsTheSameOnAnyNumberOfThreads) {
-  std::vector<Point> repeated;
-  for (int i = 0; i < 80; ++i) {
-    for (const Point& p : testing::uniform_points(200, 2)) repeated.push_back(p);
-  }
   for (const std::vector<Point>& points :
-       {repeated, testing::uniform_points(40000, 2), sparser_to_the_right(30000, 5, 3)}) {
+       {testing::repeated(testing::uniform_points(200, 2), 80), testing::uniform_points(40000, 2),
+        sparser_to_the_right(30000, 5, 3)}) {
     for (const unsigned threads : {2U, 3U, 8U}) {
       EXPECT_EQ(chosen(points, {.threads = threads}), chosen(points)) << threads;
       EXPECT_EQ(concave_hull(points, {.threads = threads}), concave_hull(points)) << threads;
@@ -436,10 +429,8 @@ TEST(AutomaticLimit, OfManyPointsIsWiderWhereTheirAreaHardlyGrows) {
 }
 
 TEST(AutomaticLimit, TakesOutliersOfManyPointsForNoSparsePart) {
-  std::vector<Point> points = sparser_to_the_right(300'000, 1.8, 2);
-  for (const Point& p : testing::uniform_points(30'000, 3)) {
-    points.push_back({1.4 * p.x - 0.2, 1.4 * p.y - 0.2});
-  }
+  const std::vector<Point> points =
+      with_square(sparser_to_the_right(300'000, 1.8, 2), 30'000, 3, 1.4, {-0.2, -0.2});
   const double whole = area(to_coordinates(concave_hull(points), points));
   EXPECT_GT(whole, 0.99);
   EXPECT_LT(whole, 1.02);
@@ -448,11 +439,8 @@ TEST(AutomaticLimit, TakesOutliersOfManyPointsForNoSparsePart) {
 TEST(AutomaticLimit, TakesOutliersForNoSparsePart) {
   for (const std::size_t count : {2000U, 20000U}) {
     for (std::uint64_t seed = 0; seed < 5; ++seed) {
-      std::vector<Point> points = testing::uniform_points(count, seed);
-      for (const Point& p : testing::uniform_points(count / 50, seed + 100)) {
-        const Point outlier{3 * p.x - 1, 3 * p.y - 1};
-        points.push_back(outlier);
-      }
+      const std::vector<Point> points =
+          with_square(testing::uniform_points(count, seed), count / 50, seed + 100, 3, {-1, -1});
       EXPECT_LT(area(checked_hull(points)), 1.15) << count << " points, seed " << seed;
     }
   }
@@ -476,10 +464,7 @@ TEST(AutomaticLimit, JoinsClusters) {
 TEST(AutomaticLimit, JoinsClustersOfRepeatedPoints) {
   double sum = 0;
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    const std::vector<Point> points = clustered(4000, seed);
-    std::vector<Point> repeated;
-    for (int i = 0; i < 20; ++i) repeated.insert(repeated.end(), points.begin(), points.end());
-    sum += area(checked_hull(repeated));
+    sum += area(checked_hull(testing::repeated(clustered(4000, seed), 20)));
   }
   EXPECT_GT(sum / 5, 0.7);
 }
@@ -541,10 +526,8 @@ TEST(AutomaticLimit, TakesPointsAtRandomForEven) {
 TEST(AutomaticLimit, LeavesAFifthOfOutliersOut) {
   int joined = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    std::vector<Point> points = testing::uniform_points(1600, seed);
-    for (const Point& outlier : testing::uniform_points(400, seed + 100)) {
-      points.push_back({1.6 * outlier.x - 0.3, 1.6 * outlier.y - 0.3});
-    }
+    const std::vector<Point> points =
+        with_square(testing::uniform_points(1600, seed), 400, seed + 100, 1.6, {-0.3, -0.3});
     joined += area(checked_hull(points)) > 1.5 ? 1 : 0;  // of 2.56
   }
   EXPECT_LE(joined, 2);  // of 20
@@ -552,11 +535,7 @@ TEST(AutomaticLimit, LeavesAFifthOfOutliersOut) {
 
 /// Points of the unit square, and uniform outliers in the square of thrice its area round it.
 std::vector<Point> square_in_outliers(std::size_t count, std::size_t outliers, std::uint64_t seed) {
-  std::vector<Point> points = testing::uniform_points(count, seed);
-  for (const Point& p : testing::uniform_points(outliers, seed + 100)) {
-    points.push_back({1.73 * p.x - 0.365, 1.73 * p.y - 0.365});
-  }
-  return points;
+  return with_square(testing::uniform_points(count, seed), outliers, seed + 100, 1.73, {-0.365, -0.365});
 }
 
 /// Whether the spacings of the points show outliers.
@@ -586,9 +565,8 @@ TEST(AutomaticLimit, LeavesManyOutliersOut) {
 TEST(AutomaticLimit, LeavesManyOutliersOutThatLieClose) {
   for (const std::size_t outliers : {2400U, 3000U, 3600U}) {
     for (std::uint64_t seed = 0; seed < 8; ++seed) {
-      std::vector<Point> points = testing::uniform_points(12000, seed);
-      for (const Point& p : testing::uniform_points(outliers, seed + 100))
-        points.push_back({1.7 * p.x - 0.35, 1.7 * p.y - 0.35});
+      std::vector<Point> points =
+          with_square(testing::uniform_points(12000, seed), outliers, seed + 100, 1.7, {-0.35, -0.35});
       points.push_back(points[seed]);  // the sample of the triangles is another one by that
       EXPECT_LT(area(checked_hull(points)), 1.15) << outliers << " outliers, seed " << seed;
     }
@@ -664,10 +642,9 @@ TEST(AutomaticLimit, TakesNoSparsePartForOutliers) {
 // Nearly half of the points are no outliers, and of few outliers the bound on growth takes care.
 TEST(AutomaticLimit, OutliersAreNeitherTooManyNorTooFew) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    std::vector<Point> points = testing::uniform_points(5500, seed);
-    for (const Point& p : testing::uniform_points(5500, seed + 100))
-      points.push_back({4 * p.x - 1.5, 4 * p.y - 1.5});
-    EXPECT_FALSE(shows_outliers(points)) << seed << ": a sparse rim";
+    EXPECT_FALSE(
+        shows_outliers(with_square(testing::uniform_points(5500, seed), 5500, seed + 100, 4, {-1.5, -1.5})))
+        << seed << ": a sparse rim";
     EXPECT_FALSE(shows_outliers(square_in_outliers(12000, 200, seed))) << seed << ": few outliers";
   }
 }
@@ -743,12 +720,10 @@ TEST(AutomaticLimit, TakesOutlinesForEven) {
 // shape.
 TEST(AutomaticLimit, BoundsWhatOutliersMakeOfAField) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    std::vector<Point> points = sparser_to_the_right(20000, 5, seed);
-    const double without = area(checked_hull(points));
-    for (const Point& p : testing::uniform_points(600, seed + 100)) {
-      points.push_back({5 * p.x - 2, 5 * p.y - 2});
-    }
-    EXPECT_LT(area(checked_hull(points)), 1.1 * without) << seed;
+    const std::vector<Point> points = sparser_to_the_right(20000, 5, seed);
+    EXPECT_LT(area(checked_hull(with_square(points, 600, seed + 100, 5, {-2, -2}))),
+              1.1 * area(checked_hull(points)))
+        << seed;
   }
 }
 
@@ -780,16 +755,14 @@ TEST(AutomaticLimit, DropsASpike) {
 TEST(AutomaticLimit, DropsPartsOfFewTriangles) {
   for (const auto& [side, parts] :
        {std::pair{std::size_t{3}, std::size_t{1}}, {7, 2}}) {  // 8 and 72 triangles
-    std::vector<Point> points = testing::lattice(45, 45);
-    for (const Point& p : testing::lattice(side, side)) points.push_back({p.x + 60, p.y});
+    const auto points = testing::joined(testing::lattice(45, 45), testing::lattice(side, side, 1, {60, 0}));
     EXPECT_EQ(checked_hull(points).size(), parts) << side;
   }
 }
 
 TEST(AutomaticLimit, KeepsASparsePartFarAway) {
-  std::vector<Point> points = testing::uniform_points(4000, 5);
-  for (const Point& p : testing::uniform_points(1000, 6)) points.push_back({10 + 10 * p.x, 10 * p.y});
-  const MultiPolygon shape = checked_hull(points);
+  const MultiPolygon shape =
+      checked_hull(with_square(testing::uniform_points(4000, 5), 1000, 6, 10, {10, 0}));
   ASSERT_EQ(shape.size(), 2U);
   EXPECT_NEAR(area(shape), 101, 10);
 }
@@ -850,8 +823,7 @@ TEST(AutomaticLimit, LeavesFewHolesInTails) {
 }
 
 TEST(AutomaticLimit, IsSmallBesideALongGap) {
-  std::vector<Point> points = testing::uniform_points(2000, 33);
-  for (const Point& p : testing::uniform_points(2000, 34)) points.push_back({p.x + 1e9, p.y + 1e9});
+  const auto points = with_square(testing::uniform_points(2000, 33), 2000, 34, 1, {1e9, 1e9});
   EXPECT_EQ(checked_hull(points).size(), 2U);
   EXPECT_LT(median_size(points), 0.1);
 }
@@ -962,8 +934,7 @@ TEST(AutomaticLimit, MoreDetailBringsNoTriangleBack) {
 
 // A small part does not come back where more detail leaves no large one, and stays where there never was one.
 TEST(AutomaticLimit, MoreDetailDropsTheSmallPartsThatLessDetailDrops) {
-  std::vector<Point> points = testing::lattice(45, 45);
-  for (const Point& p : testing::lattice(3, 3, 0.3, {60, 0})) points.push_back(p);
+  const auto points = testing::joined(testing::lattice(45, 45), testing::lattice(3, 3, 0.3, {60, 0}));
   EXPECT_EQ(checked_hull(points).size(), 1U);
   EXPECT_TRUE(checked_hull(points, {.detail = 3}).empty());
   const std::vector<Point> square = testing::lattice(2, 2);

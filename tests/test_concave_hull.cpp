@@ -1,4 +1,4 @@
-// The concave hull by its invariants, known shapes, and relations between inputs. Needs nothing but the core.
+// The concave hull by its invariants and known shapes. Needs nothing but the core.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,6 @@
 #include "polylidar/check.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
-#include "polylidar/predicates.hpp"
 #include "tests/checked_hull.hpp"
 #include "tests/complaint.hpp"
 #include "tests/hull_oracle.hpp"
@@ -32,20 +31,12 @@ using testing::hole_count;
 using testing::kUnitCells;
 using testing::lattice;
 using testing::PointSet;
-using testing::scaled;
 using testing::strict_corners;
 
 using hullbench::testing::kInfinity;
 
 MultiPolygon hull(const std::vector<Point>& points, const Options& options = testing::kConvexHull) {
   return testing::checked_hull(points, options);
-}
-
-// Squares of coordinates, and so areas, are doubles within this extent.
-bool has_representable_area(const std::vector<Point>& points) {
-  const Box box = bounding_box(points);
-  const double extent = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
-  return points.empty() || (extent < 1e150 && extent > 1e-150);
 }
 
 std::vector<Point> without(std::vector<Point> points, const std::vector<Point>& removed) {
@@ -55,17 +46,7 @@ std::vector<Point> without(std::vector<Point> points, const std::vector<Point>& 
 }
 
 void expect_the_shape_of_its_triangles(const std::vector<Point>& points) {
-  const Triangulation triangulation = delaunay(points);
-  for (const Options& options : testing::clear_options(points, triangulation)) {
-    SCOPED_TRACE(testing::describe(options));
-    const MultiPolygon shape = hull(points, options);
-    const testing::ExpectedShape expected = testing::expected_shape(points, triangulation, options);
-    EXPECT_EQ(shape.size(), expected.polygons);
-    EXPECT_EQ(hole_count(shape), expected.holes);
-    if (has_representable_area(points)) {
-      EXPECT_NEAR(area(shape), expected.area, area_tolerance(points));
-    }
-  }
+  testing::expect_the_shapes_of_their_triangles(points, testing::clear_options(points, delaunay(points)));
 }
 
 // any input
@@ -89,7 +70,7 @@ TEST(ConcaveHull, WithoutLimitsIsTheConvexHull) {
   for (const PointSet& set : testing::nasty_point_sets()) {
     SCOPED_TRACE(set.name);
     const MultiPolygon shape = hull(set.points);
-    if (shape.empty() || !has_representable_area(set.points)) continue;
+    if (shape.empty() || !testing::has_representable_area(set.points)) continue;
     ASSERT_EQ(shape.size(), 1U);
     EXPECT_TRUE(shape[0].holes.empty());
     EXPECT_EQ(canonical({{strict_corners(shape[0].shell), {}}}),
@@ -391,124 +372,6 @@ TEST(ConcaveHull, OfALatticeWithGapsFollowsFromItsCells) {
     EXPECT_EQ(hole_count(shape), expected.holes());
   }
 }
-
-// relations between inputs
-
-// (x, y) -> (xx x + xy y + dx, yx x + yy y + dy): motions of the plane that are exact on the integer points
-// used here.
-struct Motion {
-  std::string name;
-  double xx, xy, yx, yy;
-  double dx = 0;
-  double dy = 0;
-
-  double scale() const { return std::abs(xx + xy); }  // one of the two is 0
-  bool mirrors() const { return xx * yy - xy * yx < 0; }
-};
-
-const std::vector<Motion> kMotions = {{"mirrored in x", -1, 0, 0, 1},
-                                      {"mirrored in y", 1, 0, 0, -1},
-                                      {"axes swapped", 0, 1, 1, 0},
-                                      {"turned by 90 degrees", 0, -1, 1, 0},
-                                      {"moved", 1, 0, 0, 1, 0x1p30, -0x1p27},
-                                      {"8 times larger", 8, 0, 0, 8},
-                                      {"2^300 times larger", 0x1p300, 0, 0, 0x1p300},
-                                      {"2^300 times smaller", 0x1p-300, 0, 0, 0x1p-300}};
-
-std::vector<Point> moved(std::vector<Point> points, const Motion& motion) {
-  for (Point& p : points) {
-    p = {motion.xx * p.x + motion.xy * p.y + motion.dx, motion.yx * p.x + motion.yy * p.y + motion.dy};
-  }
-  return points;
-}
-
-MultiPolygon moved(MultiPolygon shape, const Motion& motion) {
-  const auto move_ring = [&](Ring& ring) {
-    ring = moved(ring, motion);
-    if (motion.mirrors()) std::reverse(ring.begin(), ring.end());
-  };
-  for (Polygon& polygon : shape) {
-    move_ring(polygon.shell);
-    for (Ring& hole : polygon.holes) move_ring(hole);
-  }
-  return shape;
-}
-
-// Points whose Delaunay triangulation is the only one, so that a relation has one right answer.
-std::vector<Point> points_in_general_position(std::uint64_t seed) {
-  std::vector<Point> points = testing::integer_points(150 + 5 * seed, seed, 1 << 20);
-  const Triangulation triangulation = delaunay(points);
-  const std::vector<std::uint32_t>& twins = triangulation.halfedges;
-  const auto at = [&](std::size_t half_edge) { return points[triangulation.triangles[half_edge]]; };
-  for (std::size_t e = 0; e < twins.size(); ++e) {
-    if (twins[e] == kNone) continue;
-    const std::size_t first = e - e % 3;
-    const std::size_t opposite = twins[e] - twins[e] % 3 + (twins[e] + 2) % 3;
-    EXPECT_NE(incircle(at(first), at(first + 1), at(first + 2), at(opposite)), 0) << "seed " << seed;
-  }
-  return points;
-}
-
-class ConcaveHullRelations : public ::testing::TestWithParam<std::uint64_t> {
- protected:
-  const std::vector<Point> points_ = points_in_general_position(GetParam());
-  const std::vector<Options> options_ = testing::clear_options(points_, delaunay(points_));
-};
-
-TEST_P(ConcaveHullRelations, MotionsMoveTheShapeAlong) {
-  for (const Options& options : options_) {
-    SCOPED_TRACE(testing::describe(options));
-    const MultiPolygon shape = hull(points_, options);
-    for (const Motion& motion : kMotions) {
-      SCOPED_TRACE(motion.name);
-      EXPECT_EQ(canonical(hull(moved(points_, motion), scaled(options, motion.scale()))),
-                canonical(moved(shape, motion)));
-    }
-  }
-}
-
-TEST_P(ConcaveHullRelations, TheOrderOfPointsDoesNotMatter) {
-  for (const Options& options : options_) {
-    SCOPED_TRACE(testing::describe(options));
-    const MultiPolygon shape = canonical(hull(points_, options));
-    for (std::uint64_t order = 0; order < 3; ++order) {
-      EXPECT_EQ(canonical(hull(testing::shuffled(points_, order), options)), shape) << "order " << order;
-    }
-  }
-}
-
-TEST_P(ConcaveHullRelations, RepeatedPointsDoNotMatter) {
-  testing::Random random(GetParam());
-  std::vector<Point> repeated = points_;
-  for (int i = 0; i < 100; ++i) repeated.push_back(repeated[random.below(repeated.size())]);
-  for (const Options& options : options_) {
-    SCOPED_TRACE(testing::describe(options));
-    const MultiPolygon shape = canonical(hull(points_, options));
-    EXPECT_EQ(canonical(hull(repeated, options)), shape);
-    EXPECT_EQ(canonical(hull(testing::shuffled(repeated, GetParam()), options)), shape);
-  }
-}
-
-// A larger limit keeps all triangles that a smaller one keeps.
-TEST_P(ConcaveHullRelations, LargerLimitsGiveLargerShapes) {
-  double alpha_area = 0;
-  double length_area = 0;
-  double perimeter_area = 0;
-  for (int k = 0; k < 44; ++k) {
-    const double limit = 0x1p10 * std::pow(1.25, k);  // up to 2^24
-    const double with_alpha = area(hull(points_, {.alpha = limit}));
-    const double with_length = area(hull(points_, {.max_edge_length = limit}));
-    const double with_perimeter = area(hull(points_, {.max_perimeter = limit}));
-    EXPECT_GE(with_alpha, alpha_area) << limit;
-    EXPECT_GE(with_perimeter, perimeter_area) << limit;
-    EXPECT_GE(with_length, length_area) << limit;
-    alpha_area = with_alpha;
-    length_area = with_length;
-    perimeter_area = with_perimeter;
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(Seeds, ConcaveHullRelations, ::testing::Range(std::uint64_t{0}, std::uint64_t{20}));
 
 // memory kept between calls
 

@@ -12,14 +12,13 @@
 #include "polylidar/check.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
+#include "tests/checked_hull.hpp"
 #include "tests/hull_oracle.hpp"
 #include "tests/point_sets.hpp"
 
 namespace polylidar {
 namespace {
 
-using testing::area_tolerance;
-using testing::hole_count;
 using testing::NamedCase;
 
 NamedCase named_case(const std::string& name) {
@@ -45,17 +44,7 @@ TEST(NamedCases, HaveADelaunayTriangulation) {
 TEST(NamedCases, AreTheShapesOfTheirTriangles) {
   for (const NamedCase& named : testing::named_cases()) {
     SCOPED_TRACE(named.name);
-    const Triangulation triangulation = delaunay(named.points);
-    for (const Options& options : named.options) {
-      SCOPED_TRACE(testing::describe(options));
-      const IndexedMultiPolygon indexed = concave_hull(named.points, options);
-      EXPECT_EQ(check_polygon(named.points, indexed), "");
-      const MultiPolygon shape = to_coordinates(indexed, named.points);
-      const testing::ExpectedShape expected = testing::expected_shape(named.points, triangulation, options);
-      EXPECT_EQ(shape.size(), expected.polygons);
-      EXPECT_EQ(hole_count(shape), expected.holes);
-      EXPECT_NEAR(area(shape), expected.area, area_tolerance(named.points));
-    }
+    testing::expect_the_shapes_of_their_triangles(named.points, named.options);
   }
 }
 

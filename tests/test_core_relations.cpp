@@ -1,5 +1,4 @@
-// Relations between inputs where ties abound or magnitudes are extreme; test_concave_hull.cpp has those of
-// points in general position.
+// Relations between inputs: points in general position, and where ties abound or magnitudes are extreme.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +37,7 @@ struct LatticeMotion {
   double sign_x = 1;
   double sign_y = 1;
   int exponent = 0;
-  Point offset;
+  Point offset = {};
   bool swaps_axes = false;
 
   Point operator()(const Point& p) const {
@@ -85,6 +84,79 @@ MultiPolygon moved(MultiPolygon shape, const LatticeMotion& motion) {
   }
   return shape;
 }
+
+// Points whose Delaunay triangulation is the only one, so that a relation has one right answer.
+std::vector<Point> points_in_general_position(std::uint64_t seed) {
+  std::vector<Point> points = testing::integer_points(150 + 5 * seed, seed, 1 << 20);
+  EXPECT_TRUE(testing::is_unique(points, delaunay(points))) << "seed " << seed;
+  return points;
+}
+
+class ConcaveHullRelations : public ::testing::TestWithParam<std::uint64_t> {
+ protected:
+  const std::vector<Point> points_ = points_in_general_position(GetParam());
+  const std::vector<Options> options_ = testing::clear_options(points_, delaunay(points_));
+};
+
+TEST_P(ConcaveHullRelations, MotionsMoveTheShapeAlong) {
+  const std::vector<LatticeMotion> motions = {{.sign_x = -1},
+                                              {.sign_y = -1},
+                                              {.swaps_axes = true},
+                                              {.sign_y = -1, .swaps_axes = true},  // a quarter turn
+                                              {.offset = {0x1p30, -0x1p27}},
+                                              {.exponent = 3},
+                                              {.exponent = 300},
+                                              {.exponent = -300}};
+  for (const Options& options : options_) {
+    SCOPED_TRACE(testing::describe(options));
+    const MultiPolygon shape = checked_hull(points_, options);
+    for (const LatticeMotion& motion : motions) {
+      SCOPED_TRACE(::testing::PrintToString(motion));
+      EXPECT_EQ(
+          canonical(checked_hull(moved(points_, motion), scaled(options, std::ldexp(1.0, motion.exponent)))),
+          canonical(moved(shape, motion)));
+    }
+  }
+}
+
+TEST_P(ConcaveHullRelations, TheOrderOfPointsDoesNotMatter) {
+  for (const Options& options : options_) {
+    SCOPED_TRACE(testing::describe(options));
+    const MultiPolygon shape = canonical(checked_hull(points_, options));
+    for (std::uint64_t order = 0; order < 3; ++order) {
+      EXPECT_EQ(canonical(checked_hull(testing::shuffled(points_, order), options)), shape)
+          << "order " << order;
+    }
+  }
+}
+
+TEST_P(ConcaveHullRelations, RepeatedPointsDoNotMatter) {
+  Random random(GetParam());
+  std::vector<Point> repeated = points_;
+  for (int i = 0; i < 100; ++i) repeated.push_back(repeated[random.below(repeated.size())]);
+  for (const Options& options : options_) {
+    SCOPED_TRACE(testing::describe(options));
+    const MultiPolygon shape = canonical(checked_hull(points_, options));
+    EXPECT_EQ(canonical(checked_hull(repeated, options)), shape);
+    EXPECT_EQ(canonical(checked_hull(testing::shuffled(repeated, GetParam()), options)), shape);
+  }
+}
+
+// A larger limit keeps all triangles that a smaller one keeps.
+TEST_P(ConcaveHullRelations, LargerLimitsGiveLargerShapes) {
+  for (const auto which : {&Options::alpha, &Options::max_edge_length, &Options::max_perimeter}) {
+    double before = 0;
+    for (int k = 0; k < 44; ++k) {
+      Options options;
+      options.*which = 0x1p10 * std::pow(1.25, k);  // up to 2^24
+      const double now = area(checked_hull(points_, options));
+      EXPECT_GE(now, before) << testing::describe(options);
+      before = now;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, ConcaveHullRelations, ::testing::Range(std::uint64_t{0}, std::uint64_t{20}));
 
 // The same points, some of them repeated, in another order.
 std::vector<Point> disarranged(std::vector<Point> points, Random& random) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "adapters/adapter.hpp"
+#include "tests/adapter_contract.hpp"
 #include "tests/complaint.hpp"
 #include "tests/hull_input.hpp"
 #include "tests/hull_oracle.hpp"
@@ -61,13 +62,8 @@ TEST(GeosConcaveHull, OfATrapezoidWithOneInnerPoint) {
 }
 
 TEST(GeosConcaveHull, KeepsOrFillsTheHole) {
-  const std::vector<Point> points = square_points(kPoints, 7, true);
-  const MultiPolygon filled = geos_hull(points, {{"max_edge_length", 0.12}});
-  EXPECT_NEAR(polylidar::area(filled), 1, kAreaTolerance);
-  EXPECT_EQ(hole_count(filled), 0U);
-  const MultiPolygon with_hole = geos_hull(points, {{"max_edge_length", 0.12}, {"allow_holes", 1}});
-  EXPECT_NEAR(polylidar::area(with_hole), 1 - kHoleArea, kAreaTolerance);
-  EXPECT_EQ(hole_count(with_hole), 1U);
+  expect_hole_to_be_filled_or_kept(*make_geos_concave_hull(), {{"max_edge_length", 0.12}},
+                                   {{"max_edge_length", 0.12}, {"allow_holes", 1}});
 }
 
 TEST(GeosConcaveHull, ByLengthIsTheChiShape) {

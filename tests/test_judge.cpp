@@ -32,6 +32,13 @@ TEST(Judge, WithFewTimesOnlyTenTimesAsLongIsLonger) {
   EXPECT_EQ(side_of_times(many, many), Side::kUndecided);
 }
 
+TEST(Judge, OfTimesAnIntervalThatEndsAtOneIsUndecided) {
+  const std::vector<std::int64_t> times = {100, 101, 102, 103};
+  // 103 on both sides: the largest ratio that is not rejected is 1, with p = 4 / 70.
+  EXPECT_EQ(side_of_times(times, std::vector<std::int64_t>{103, 110, 111, 112}), Side::kUndecided);
+  EXPECT_EQ(side_of_times(std::vector<std::int64_t>{103, 110, 111, 112}, times), Side::kUndecided);
+}
+
 TEST(Judge, ManyQuestionsAskForMoreEvidence) {
   const Evidence clear = {{1.1, 1.2}, 0.02};
   const Evidence nothing = {{0.9, 1.1}, 0.5};

@@ -3,13 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <random>
 
 #include "tests/complaint.hpp"
 #include "tests/las_file.hpp"
-#include "tests/temporary_folder.hpp"
+#include "tests/point_reading_test.hpp"
 #include "tool/points/kept_points.hpp"
 #include "tool/points/point_file.hpp"
 #include "tool/points/point_sources.hpp"
@@ -52,24 +51,21 @@ LasFile some_points(unsigned minor, unsigned format) {
   return file;
 }
 
-class LasPointsTest : public ::testing::Test {
+class LasPointsTest : public PointReadingTest {
  protected:
-  PointFile read(const LasFile& file, const PointFileOptions& options = {}) const {
-    return read_bytes(file.text(), options);
+  PointFile read(const LasFile& las, const PointFileOptions& options = {}) const {
+    return read_bytes(las.text(), options);
   }
   PointFile read_bytes(const std::string& bytes, const PointFileOptions& options = {}) const {
-    std::ofstream(path(), std::ios::binary) << bytes;
-    return read_point_file(path(), options);
+    return read_point_file(written(bytes), options);
   }
-  std::string path() const { return (folder_.path() / "points.las").string(); }
+  /// The path of a file with these bytes.
+  std::string written(const std::string& bytes) const { return file("points.las", bytes); }
 
   void expect_refusal(const std::string& bytes, const std::string& words,
                       const PointFileOptions& options = {}) const {
     expect_complaint<PointFileError>([&] { read_bytes(bytes, options); }, words);
   }
-
- private:
-  hullbench::testing::TemporaryFolder folder_;
 };
 
 TEST_F(LasPointsTest, EveryVersionAndFormat) {
@@ -150,8 +146,7 @@ TEST_F(LasPointsTest, ChoosesByReturnClassWindowAndLeavesOutTheWithheld) {
 TEST_F(LasPointsTest, TheHeaderSaysWhatToExpect) {
   LasFile file = some_points(4, 6);
   const auto expected = [&](const PointFileOptions& options = {}) {
-    std::ofstream(path(), std::ios::binary) << file.text();
-    return expected_points(path(), options);
+    return expected_points(written(file.text()), options);
   };
   const Box box = bounding_box(file.places());
   // Not rounded to what the whole numbers of the file stand for.
@@ -177,9 +172,9 @@ TEST_F(LasPointsTest, TheHeaderSaysWhatToExpect) {
   file.minor = 2;
   file.format = 1;
   EXPECT_TRUE(expected());
-  std::ofstream(path(), std::ios::binary) << file.text().substr(0, 300);
-  EXPECT_FALSE(expected_points(path(), {}));
-  EXPECT_FALSE(expected_points(path() + ".missing", {}));
+  const std::string cut = written(file.text().substr(0, 300));
+  EXPECT_FALSE(expected_points(cut, {}));
+  EXPECT_FALSE(expected_points(cut + ".missing", {}));
 }
 
 // Blocks with withheld points and others, in all ways to take the points.
@@ -198,20 +193,9 @@ TEST_F(LasPointsTest, WithheldPointsAreInSomeBlocksOnly) {
     EXPECT_EQ(whole.points, expected);
     EXPECT_EQ(whole.classes, classes);
     for (const std::size_t parts : {1U, 3U}) {
-      Points taken;
-      std::array<std::uint64_t, 256> of_parts{};
-      PointFileOptions options;
-      options.take_points = [&](std::span<const Point> block) {
-        taken.insert(taken.end(), block.begin(), block.end());
-      };
-      for (std::size_t part = 0; part < parts; ++part) {
-        options.part = {part, parts};
-        const PointFile of_part = read(file, options);
-        EXPECT_TRUE(of_part.points.empty());
-        for (std::size_t c = 0; c < classes.size(); ++c) of_parts[c] += of_part.classes[c];
-      }
-      EXPECT_EQ(taken, expected);
-      EXPECT_EQ(of_parts, classes);
+      const PointFile together = read_in_parts(written(file.text()), parts);
+      EXPECT_EQ(together.points, expected);
+      EXPECT_EQ(together.classes, classes);
     }
   }
 }
@@ -235,19 +219,11 @@ TEST_F(LasPointsTest, ASourceKeepsItsPointsAndReadsTheFileOnce) {
     if (!point.withheld) places.push_back(file.place(point));
     file.points.push_back(point);
   }
-  const std::string path = this->path();
-  std::ofstream(path, std::ios::binary) << file.text();
+  const std::string path = written(file.text());
   constexpr std::size_t kParts = 3;
   std::uint64_t told = 0;  // points, by their classes
   const auto on_read = [&](std::size_t, const PointFile& part) {
     for (const std::uint64_t count : part.classes) told += count;
-  };
-  const auto given_by = [](const std::vector<PointSource>& sources) {
-    Points points;
-    for (const PointSource& source : sources) {
-      source([&](std::span<const Point> block) { points.insert(points.end(), block.begin(), block.end()); });
-    }
-    return points;
   };
   const std::uint64_t enough = sizeof(point_files::LatticePoint) * file.points.size();
   const std::vector<PointSource> kept = point_sources(path, {}, kParts, enough, on_read);
@@ -257,34 +233,24 @@ TEST_F(LasPointsTest, ASourceKeepsItsPointsAndReadsTheFileOnce) {
   for (const auto* sources : {&kept, &not_kept}) {
     for (int pass = 0; pass < 3; ++pass) {
       told = 0;
-      EXPECT_EQ(given_by(*sources), places);
+      EXPECT_EQ(points_of(*sources), places);
       EXPECT_EQ(told, places.size());
     }
   }
   std::filesystem::remove(path);
-  EXPECT_EQ(given_by(kept), places);
-  EXPECT_THROW(given_by(not_kept), PointFileError);
+  EXPECT_EQ(points_of(kept), places);
+  EXPECT_THROW(points_of(not_kept), PointFileError);
 }
 
 // What a first reading that failed has kept is not taken for the file.
 TEST_F(LasPointsTest, ASourceThatFailedIsReadFromItsBeginning) {
-  LasFile file = some_points(2, 1);
-  const std::string whole = file.text();
-  const std::string path = this->path();
-  std::ofstream(path, std::ios::binary) << whole;
+  const LasFile file = some_points(2, 1);
   const std::vector<PointSource> sources =
-      point_sources(path, {}, 1, 1U << 20U, [](std::size_t, const PointFile&) {});
-  Points given;
+      point_sources(written(file.text()), {}, 1, 1U << 20U, [](std::size_t, const PointFile&) {});
   const auto fail = [](std::span<const Point>) { throw std::runtime_error("stop"); };
-  const auto take = [&](std::span<const Point> block) {
-    given.insert(given.end(), block.begin(), block.end());
-  };
   EXPECT_THROW(sources[0](fail), std::runtime_error);
-  sources[0](take);
-  EXPECT_EQ(given, file.places());
-  given.clear();
-  sources[0](take);
-  EXPECT_EQ(given, file.places());
+  EXPECT_EQ(points_of(sources), file.places());
+  EXPECT_EQ(points_of(sources), file.places()) << "again";
 }
 
 TEST_F(LasPointsTest, PointsOfAnyLength) {
@@ -364,11 +330,11 @@ TEST_F(LasPointsTest, TheCoordinateSystemOfGeoKeysAndText) {
 }
 
 TEST_F(LasPointsTest, TheSystemBesideIsThatOfAFileThatNamesNone) {
-  std::ofstream(path().replace(path().size() - 3, 3, "prj")) << R"(PROJCS["a",AUTHORITY["EPSG","25833"]])";
-  LasFile file = some_points(2, 1);
-  EXPECT_EQ(read(file).crs, (Crs{25833, false, true}));
-  file.records = {projected(25832)};
-  EXPECT_EQ(read(file).crs, (Crs{25832, false, true}));
+  file("points.prj", R"(PROJCS["a",AUTHORITY["EPSG","25833"]])");
+  LasFile las = some_points(2, 1);
+  EXPECT_EQ(read(las).crs, (Crs{25833, false, true}));
+  las.records = {projected(25832)};
+  EXPECT_EQ(read(las).crs, (Crs{25832, false, true}));
 }
 
 TEST_F(LasPointsTest, FilesThatLieAreRefused) {

@@ -5,14 +5,13 @@
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <random>
 
 #include "tests/complaint.hpp"
 #include "tests/las_file.hpp"
 #include "tests/laz_file.hpp"
 #include "tests/laz_samples.hpp"
-#include "tests/temporary_folder.hpp"
+#include "tests/point_reading_test.hpp"
 #include "tool/points/point_file.hpp"
 #include "tool/points/point_sources.hpp"
 
@@ -32,13 +31,8 @@ constexpr unsigned kFormats[] = {0, 1, 2, 3, 6, 7, 8};
 constexpr LazSample kSamples[] = {LazSample::kScan, LazSample::kOneBeam, LazSample::kWild,
                                   LazSample::kExtremes, LazSample::kConstant};
 
-class LazPointsTest : public ::testing::Test {
+class LazPointsTest : public PointReadingTest {
  protected:
-  std::string file(const std::string& name, const std::string& bytes) const {
-    std::string path = (folder_.path() / name).string();
-    std::ofstream(path, std::ios::binary) << bytes;
-    return path;
-  }
   PointFile read(const std::string& bytes, const PointFileOptions& options = {}) const {
     return read_point_file(file("points.laz", bytes), options);
   }
@@ -57,9 +51,6 @@ class LazPointsTest : public ::testing::Test {
   void expect_refusal(const std::string& bytes, const std::string& words) const {
     expect_complaint<PointFileError>([&] { read(bytes); }, words);
   }
-
- private:
-  hullbench::testing::TemporaryFolder folder_;
 };
 
 /// Where the points of a file begin.
@@ -151,19 +142,9 @@ TEST_F(LazPointsTest, PartsAreChunksAndTogetherTheFile) {
       const std::string path = file("points.laz", compressed(las, laz));
       ASSERT_TRUE(is_read_in_parts(path, {}));
       for (const std::size_t parts : {1U, 2U, 7U, 40U}) {
-        Points taken;
-        std::array<std::uint64_t, 256> classes{};
-        PointFileOptions options;
-        options.take_points = [&](std::span<const Point> block) {
-          taken.insert(taken.end(), block.begin(), block.end());
-        };
-        for (std::size_t part = 0; part < parts; ++part) {
-          options.part = {part, parts};
-          const PointFile of_part = read_point_file(path, options);
-          for (std::size_t c = 0; c < classes.size(); ++c) classes[c] += of_part.classes[c];
-        }
-        EXPECT_EQ(taken, whole.points);
-        EXPECT_EQ(classes, whole.classes);
+        const PointFile together = read_in_parts(path, parts);
+        EXPECT_EQ(together.points, whole.points);
+        EXPECT_EQ(together.classes, whole.classes);
       }
     }
   }
@@ -176,11 +157,7 @@ TEST_F(LazPointsTest, ASourceKeepsItsPoints) {
   const auto sources = point_sources(path, {}, 3, 1U << 20U, [](std::size_t, const PointFile&) {});
   ASSERT_EQ(sources.size(), 3U);
   for (int pass = 0; pass < 2; ++pass) {
-    Points points;
-    for (const PointSource& source : sources) {
-      source([&](std::span<const Point> block) { points.insert(points.end(), block.begin(), block.end()); });
-    }
-    EXPECT_EQ(points, expected);
+    EXPECT_EQ(points_of(sources), expected);
     std::filesystem::remove(path);
   }
 }

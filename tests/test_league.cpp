@@ -256,6 +256,19 @@ TEST(League, ProfilesAreAmongThoseThatKnowAsMuch) {
   EXPECT_EQ(profiles.at("oracle").curves.size(), 1U);
 }
 
+TEST(League, WaysToSampleThatTheSplitDoesNotKnowAreParts) {
+  const league::League league =
+      league_of({row("good", "auto", "towns-be", 0.1), row("good", "auto", "ca~gradient:4~noise:1", 0.2),
+                 row("good", "auto", "ca", 0.3)});
+  std::vector<std::string> names;
+  for (const league::LeaguePart& part : league.samplers) {
+    names.push_back(part.name);
+    EXPECT_EQ(part.cases, 1U) << part.name;
+    EXPECT_TRUE(part.name != "towns" || !part.seen);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"uniform", "towns", "several"}));
+}
+
 TEST(League, WhoDiffersByRoundingIsBestToo) {
   const league::League league =
       league_of({row("good", "auto", "a", 0.1), row("bad", "auto", "a", 0.1 + 1e-10)});

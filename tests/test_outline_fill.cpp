@@ -223,13 +223,9 @@ bool is_asked(const std::vector<Point>& points) {
 
 /// Uniform in the strip of this width along the border of a rectangle of 10 x 1.
 std::vector<Point> frame(std::size_t count, double width, std::uint64_t seed) {
-  Random random(seed);
-  std::vector<Point> points;
-  while (points.size() < count) {
-    const Point p{random.between(0, 10), random.between(0, 1)};
-    if (std::min({p.x, 10 - p.x, p.y, 1 - p.y}) < width) points.push_back(p);
-  }
-  return points;
+  return testing::points_where(count, seed, 10, 1, [&](const Point& p, Random&) {
+    return std::min({p.x, 10 - p.x, p.y, 1 - p.y}) < width;
+  });
 }
 
 /// Lines at a distance of 1, along which points are a tenth of that apart.

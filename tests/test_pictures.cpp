@@ -125,6 +125,32 @@ TEST_F(PicturesTest, OfALargePlanTheWorstOfEachFamilyAreKept) {
   EXPECT_FALSE(cases.contains("star-" + std::to_string(most + 1) + "/n:10/holes:0"));
 }
 
+TEST_F(PicturesTest, OfALargePlanTheWorstOfEachStressAreKept) {
+  const std::size_t most = record::PictureBook::kWorstPictures;
+  record::PictureBook book(folder(), record::PictureBook::kAllPictures + 1);
+  for (std::size_t k = 1; k <= most; ++k)
+    book.add(record("star-" + std::to_string(k) + "~noise:0.5", 0.5), square(4), kTriangle);
+  book.add(record("star-100~noise:0.5", 0.1), square(4), kTriangle);
+  book.add(record("star-100~noise:1", 0.1), square(4), kTriangle);
+  book.add(record("star-100", 0.1), square(4), kTriangle);
+  const std::set<std::string> cases = kept();
+  EXPECT_EQ(cases.size(), most + 2);
+  EXPECT_FALSE(cases.contains("star-100~noise:0.5/n:10/holes:0")) << "the family's other members are worse";
+  EXPECT_TRUE(cases.contains("star-100~noise:1/n:10/holes:0")) << "another stress";
+  EXPECT_TRUE(cases.contains("star-100/n:10/holes:0")) << "none";
+}
+
+TEST_F(PicturesTest, AResultThatCannotBeDrawnTakesNoPlaceAmongTheWorst) {
+  const std::size_t most = record::PictureBook::kWorstPictures;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  record::PictureBook book(folder(), record::PictureBook::kAllPictures + 1);
+  for (std::size_t k = 1; k <= most; ++k)
+    book.add(record("star-" + std::to_string(k), nan), square(4),
+             {{{{100, 200}, {nan, 200}, {105, 210}}, {}}});
+  book.add(record("star-100", 0.1), square(4), kTriangle);
+  EXPECT_EQ(kept(), std::set<std::string>{"star-100/n:10/holes:0"});
+}
+
 TEST_F(PicturesTest, AResultThatCannotBeDrawnIsLeftOut) {
   record::PictureBook book(folder(), 1);
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -2,14 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <span>
 
 #include "tests/complaint.hpp"
 #include "tests/las_file.hpp"
 #include "tests/point_file_texts.hpp"
-#include "tests/temporary_folder.hpp"
+#include "tests/point_reading_test.hpp"
 #include "tool/points/point_file.hpp"
 
 namespace polylidar::tool {
@@ -17,14 +16,8 @@ namespace {
 
 using namespace hullbench::testing;
 
-class PointFilesTest : public ::testing::Test {
+class PointFilesTest : public PointReadingTest {
  protected:
-  std::string file(const std::string& name, const std::string& text) const {
-    std::string path = (folder_.path() / name).string();
-    std::ofstream(path, std::ios::binary) << text;
-    return path;
-  }
-
   Points read(const std::string& name, const std::string& text, const PointFileOptions& options = {}) const {
     return read_points(file(name, text), options);
   }
@@ -42,9 +35,6 @@ class PointFilesTest : public ::testing::Test {
     EXPECT_NE(said, kNoComplaint) << name << " was read\n" << text.substr(0, 200);
     return said;
   }
-
- private:
-  TemporaryFolder folder_;
 };
 
 TEST_F(PointFilesTest, EveryFormGivesTheSamePoints) {
@@ -169,16 +159,8 @@ TEST_F(PointFilesTest, ThePartsOfAFileHaveItsPoints) {
       if (has_window) options.window = Box{{100, 5}, {30'000, 200}};
       EXPECT_TRUE(is_read_in_parts(path, options)) << path;
       const Points whole = read_points(path, options);
-      for (const std::size_t count : {1U, 2U, 7U}) {
-        Points parts;
-        options.take_points = [&](std::span<const Point> block) {
-          parts.insert(parts.end(), block.begin(), block.end());
-        };
-        for (std::size_t part = 0; part < count; ++part) {
-          options.part = {part, count};
-          EXPECT_TRUE(read_point_file(path, options).points.empty());
-        }
-        EXPECT_EQ(parts, whole) << path << ' ' << count;
+      for (const std::size_t parts : {1U, 2U, 7U}) {
+        EXPECT_EQ(read_in_parts(path, parts, options).points, whole) << path << ' ' << parts;
       }
     }
   }

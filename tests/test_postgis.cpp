@@ -75,16 +75,7 @@ TEST_F(Postgis, SaysWhoItIs) {
 }
 
 TEST_F(Postgis, KeepsOrFillsTheHole) {
-  const auto adapter = make_postgis();
-  const std::vector<Point> points = square_points(kPoints, 7, true);
-  const MultiPolygon filled = hull_of(*adapter, points, kFilled);
-  ASSERT_EQ(filled.size(), 1U);
-  EXPECT_NEAR(polylidar::area(filled), 1, kAreaTolerance);
-  EXPECT_EQ(hole_count(filled), 0U);
-  const MultiPolygon with_hole = hull_of(*adapter, points, kWithHoles);
-  ASSERT_EQ(with_hole.size(), 1U);
-  EXPECT_NEAR(polylidar::area(with_hole), 1 - kHoleArea, kAreaTolerance);
-  EXPECT_EQ(hole_count(with_hole), 1U);
+  expect_hole_to_be_filled_or_kept(*make_postgis(), kFilled, kWithHoles);
 }
 
 TEST_F(Postgis, KeepsTheContract) {

@@ -123,9 +123,26 @@ Points<N> jittered(Points<N> points, Random& random, int most_ulps) {
   return points;
 }
 
+// Points near 1 at any magnitude of the range: coordinates from about 2^-110 to 2^149, or zero.
 template <std::size_t N>
-Points<N> scaled(Points<N> points, int exponent) {
-  for (Point& point : points) point = {std::ldexp(point.x, exponent), std::ldexp(point.y, exponent)};
+Points<N> at_any_magnitude(Points<N> points, Random& random) {
+  const int exponent = static_cast<int>(random.below(246)) - 98;
+  const auto moved = [&](double value) {
+    return std::abs(value) < 0x1p-12 ? 0.0 : std::ldexp(value, exponent);
+  };
+  for (Point& point : points) point = {moved(point.x), moved(point.y)};
+  return points;
+}
+
+// Each coordinate with a magnitude of its own.
+template <std::size_t N>
+Points<N> of_different_magnitudes(Random& random) {
+  const auto value = [&] {
+    const double mantissa = random.below(2) == 0 ? -1 - random.unit() : 1 + random.unit();
+    return std::ldexp(mantissa, static_cast<int>(random.below(259)) - 110);
+  };
+  Points<N> points;
+  for (Point& point : points) point = {value(), value()};
   return points;
 }
 
@@ -219,27 +236,12 @@ TEST(Orient2d, IsExactFarFromTheOrigin) {
 }
 
 TEST(Orient2d, IsExactAtEveryMagnitudeOfItsRange) {
-  expect_exact_and_degenerate(tally_of<3>(60000, 105, [](Random& random) {
-    const int exponent = static_cast<int>(random.below(246)) - 98;  // coordinates from about 2^-110 to 2^149
-    Points<3> points = nearly_collinear(random);
-    for (Point& point : points) {
-      if (std::abs(point.x) < 0x1p-12) point.x = 0;
-      if (std::abs(point.y) < 0x1p-12) point.y = 0;
-    }
-    return scaled(points, exponent);
-  }));
+  expect_exact_and_degenerate(tally_of<3>(
+      60000, 105, [](Random& random) { return at_any_magnitude(nearly_collinear(random), random); }));
 }
 
 TEST(Orient2d, IsExactWhenMagnitudesDiffer) {
-  expect_exact(tally_of<3>(30000, 106, [](Random& random) {
-    Points<3> points;
-    const auto value = [&] {
-      return std::ldexp(random.between(-1, 1) < 0 ? -1 - random.unit() : 1 + random.unit(),
-                        static_cast<int>(random.below(259)) - 110);
-    };
-    for (Point& point : points) point = {value(), value()};
-    return points;
-  }));
+  expect_exact(tally_of<3>(30000, 106, of_different_magnitudes<3>));
 }
 
 TEST(Orient2d, IsAntisymmetric) {
@@ -308,27 +310,14 @@ TEST(Incircle, IsExactFarFromTheOrigin) {
 
 TEST(Incircle, IsExactAtEveryMagnitudeOfItsRange) {
   expect_exact_and_degenerate(tally_of<4>(60000, 208, [](Random& random) {
-    const int exponent = static_cast<int>(random.below(246)) - 98;  // coordinates from about 2^-110 to 2^149
-    Points<4> points =
-        random.below(2) == 0 ? on_integer_lattice<4>(random, 2) : nearly_cocircular(random, 1, {0.5, 0.25});
-    for (Point& point : points) {
-      if (std::abs(point.x) < 0x1p-12) point.x = 0;
-      if (std::abs(point.y) < 0x1p-12) point.y = 0;
-    }
-    return scaled(points, exponent);
+    return at_any_magnitude(
+        random.below(2) == 0 ? on_integer_lattice<4>(random, 2) : nearly_cocircular(random, 1, {0.5, 0.25}),
+        random);
   }));
 }
 
 TEST(Incircle, IsExactWhenMagnitudesDiffer) {
-  expect_exact(tally_of<4>(30000, 209, [](Random& random) {
-    Points<4> points;
-    const auto value = [&] {
-      return std::ldexp(random.below(2) == 0 ? -1 - random.unit() : 1 + random.unit(),
-                        static_cast<int>(random.below(259)) - 110);
-    };
-    for (Point& point : points) point = {value(), value()};
-    return points;
-  }));
+  expect_exact(tally_of<4>(30000, 209, of_different_magnitudes<4>));
 }
 
 TEST(Incircle, IsExactOnNearlyCollinearTriangles) {

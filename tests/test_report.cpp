@@ -22,6 +22,7 @@
 #include "benchmarks/record/validate.hpp"
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/contests.hpp"
+#include "benchmarks/report/ratios.hpp"
 #include "benchmarks/report/report.hpp"
 #include "invented_shapes.hpp"
 #include "temporary_folder.hpp"
@@ -187,6 +188,23 @@ TEST(Report, WhatIsMissingOrMalformedIsNamed) {
   write_json_file(run_file, invented_run());
   std::ofstream(folder.path() / "runs.jsonl") << "{}\n";
   expect_says(message_of(folder.path()), "runs.jsonl");
+}
+
+TEST(Ratios, VariantsOfAShapeAreOneInAnInterval) {
+  const auto interval_of = [](const std::vector<std::string>& datasets) {
+    std::vector<report::CaseRatios> cases;
+    for (const std::string& dataset : datasets) {
+      const auto ratio = static_cast<double>(cases.size() + 1);
+      cases.emplace_back(report::Case{dataset, false, 1000}, statistics::Passes{{ratio}});
+    }
+    const auto interval = report::interval_over(cases);
+    return interval ? std::pair(interval->low, interval->high) : std::pair(0.0, 0.0);
+  };
+  EXPECT_EQ(interval_of({"star-1", "star-2", "star-3", "star-4", "star-5"}), std::pair(1.0, 5.0));
+  // Of one shape there are no other ones to draw, and every case was measured once.
+  EXPECT_EQ(interval_of({"channel-1", "channel-2", "channel-3", "channel-4", "channel-5"}),
+            std::pair(3.0, 3.0));
+  EXPECT_EQ(interval_of({"ca", "ca~noise:0.5", "ca~noise:1"}), std::pair(2.0, 2.0));
 }
 
 TEST(Claims, AreComputedFromThePapersProtocol) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "adapters/adapter.hpp"
+#include "tests/adapter_contract.hpp"
 #include "tests/complaint.hpp"
 #include "tests/hull_input.hpp"
 #include "tests/infinity.hpp"
@@ -13,17 +14,9 @@ namespace {
 
 // Five standard deviations: no spurious holes at this density.
 const Parameters kFilled = {{"c", 5}, {"allow_holes", 0}};
-const Parameters kWithHoles = {{"c", 5}, {"allow_holes", 1}};
 
 TEST(Spatialite, KeepsOrFillsTheHole) {
-  const auto adapter = make_spatialite();
-  const std::vector<Point> points = square_points(kPoints, 7, true);
-  const MultiPolygon filled = hull_of(*adapter, points, kFilled);
-  EXPECT_NEAR(polylidar::area(filled), 1, kAreaTolerance);
-  EXPECT_EQ(hole_count(filled), 0U);
-  const MultiPolygon with_hole = hull_of(*adapter, points, kWithHoles);
-  EXPECT_NEAR(polylidar::area(with_hole), 1 - kHoleArea, kAreaTolerance);
-  EXPECT_EQ(hole_count(with_hole), 1U);
+  expect_hole_to_be_filled_or_kept(*make_spatialite(), kFilled, {{"c", 5}, {"allow_holes", 1}});
 }
 
 TEST(Spatialite, GivesSeveralPolygons) {

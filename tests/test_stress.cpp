@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -286,6 +287,26 @@ double chi_squared(const std::vector<double>& counts, const std::vector<double>&
   return sum;
 }
 
+/// How many points are in each of the cells of `square()`, `cells` to a side, row by row.
+std::vector<double> counts_in_cells(const std::vector<Point>& points, std::size_t cells) {
+  const double side = 10 / static_cast<double>(cells);
+  const auto cell = [&](double value) { return std::min(static_cast<std::size_t>(value / side), cells - 1); };
+  std::vector<double> counts(cells * cells);
+  for (const Point& point : points) counts[cells * cell(point.y) + cell(point.x)] += 1;
+  return counts;
+}
+
+/// The share of a Gaussian round `mean` that is in each of 25 cells of `square()`, row by row.
+std::vector<double> gaussian_shares(const Point& mean, double deviation) {
+  const auto up_to = [&](double value) { return std::erf(value / deviation / std::sqrt(2)) / 2; };
+  const auto share = [&](double low, double middle) { return up_to(low + 2 - middle) - up_to(low - middle); };
+  std::vector<double> shares;
+  for (const double y : {0, 2, 4, 6, 8}) {
+    for (const double x : {0, 2, 4, 6, 8}) shares.push_back(share(x, mean.x) * share(y, mean.y));
+  }
+  return shares;
+}
+
 TEST(Stress, GradientFallsFromLeftToRight) {
   for (const double level : {4.0, 64.0}) {
     // In ten columns the density is that at their middles: level at the left side, 1 at the right.
@@ -302,24 +323,10 @@ TEST(Stress, GradientFallsFromLeftToRight) {
 TEST(Stress, HotSpotIsAGaussianOverItsBackground) {
   // In the cells of 2 by 2: 4 of background, and the peak's part of the bump's mass, 2 pi s^2 (level - 1)
   // with s = 1, a tenth of the square's side.
-  const Point middle = drawn_place(square(), 7);
-  const auto part = [](double low, double high, double mean) {
-    return (std::erf((high - mean) / std::sqrt(2)) - std::erf((low - mean) / std::sqrt(2))) / 2;
-  };
   for (const double level : {12.0, 64.0}) {
-    std::vector<double> counts(25);
-    std::vector<double> masses(25);
-    for (const Point& point : sample("hotspot", square(), 10'000, level)) {
-      const auto column = std::min<std::size_t>(static_cast<std::size_t>(point.x / 2), 4);
-      const auto row = std::min<std::size_t>(static_cast<std::size_t>(point.y / 2), 4);
-      counts[5 * row + column] += 1;
-    }
-    for (std::size_t i = 0; i < 25; ++i) {
-      const auto x = static_cast<double>(2 * (i % 5));
-      const std::size_t row = i / 5;
-      const double y = 2 * static_cast<double>(row);
-      masses[i] = 4 + 2 * std::acos(-1.0) * (level - 1) * part(x, x + 2, middle.x) * part(y, y + 2, middle.y);
-    }
+    const std::vector<double> counts = counts_in_cells(sample("hotspot", square(), 10'000, level), 5);
+    std::vector<double> masses = gaussian_shares(drawn_place(square(), 7), 1);
+    for (double& mass : masses) mass = 4 + 2 * std::numbers::pi * (level - 1) * mass;
     EXPECT_LT(chi_squared(counts, masses), 24 + 5 * std::sqrt(48)) << level;
   }
 }
@@ -331,13 +338,8 @@ TEST(Stress, CascadeHasItsDensity) {
   const polylidar::Box box = PointLocator(shape).bounds();
   const double side = (box.max.x - box.min.x) / kCells;
   for (const double level : {1.0, 2.0, 4.0}) {
-    std::vector<double> counts(kCells * kCells);
+    const std::vector<double> counts = counts_in_cells(sample("cascade", shape, 10'000, level), kCells);
     std::vector<double> masses(kCells * kCells);
-    for (const Point& point : sample("cascade", shape, 10'000, level)) {
-      const auto column = static_cast<std::size_t>((point.x - box.min.x) / side);
-      const auto row = static_cast<std::size_t>((point.y - box.min.y) / side);
-      counts[kCells * std::min(row, kCells - 1) + std::min(column, kCells - 1)] += 1;
-    }
     Random random(derive_seed(7, "cascade"));
     const Cascade cascade(shape, level, random);
     double least = 1;
@@ -373,24 +375,10 @@ TEST(Stress, TranscriptsLieRoundANucleusAndSomeBeyondTheBorder) {
       EXPECT_TRUE(point->x > -1 && point->x < 11 && point->y > -1 && point->y < 11) << level;
     // In the cells of 2 by 2 half of the cell's own are uniform, the other half a Gaussian of 2, cut off at
     // the sides.
-    const Point nucleus = drawn_place(square(), 7);
-    const auto part = [](double low, double high, double mean) {
-      return (std::erf((high - mean) / 2 / std::sqrt(2)) - std::erf((low - mean) / 2 / std::sqrt(2))) / 2;
-    };
-    const double inside = part(0, 10, nucleus.x) * part(0, 10, nucleus.y);
-    std::vector<double> counts(25);
-    std::vector<double> masses(25);
-    for (auto point = points.begin(); point != points.begin() + own; ++point) {
-      const auto column = std::min<std::size_t>(static_cast<std::size_t>(point->x / 2), 4);
-      const auto row = std::min<std::size_t>(static_cast<std::size_t>(point->y / 2), 4);
-      counts[5 * row + column] += 1;
-    }
-    for (std::size_t i = 0; i < 25; ++i) {
-      const auto x = static_cast<double>(2 * (i % 5));
-      const std::size_t row = i / 5;
-      const double y = 2 * static_cast<double>(row);
-      masses[i] = 0.5 / 25 + 0.5 * part(x, x + 2, nucleus.x) * part(y, y + 2, nucleus.y) / inside;
-    }
+    const std::vector<double> counts = counts_in_cells({points.begin(), points.begin() + own}, 5);
+    std::vector<double> masses = gaussian_shares(drawn_place(square(), 7), 2);
+    const double inside = std::accumulate(masses.begin(), masses.end(), 0.0);
+    for (double& mass : masses) mass = 0.5 / 25 + 0.5 * mass / inside;
     EXPECT_LT(chi_squared(counts, masses), 24 + 5 * std::sqrt(48)) << level;
   }
 }

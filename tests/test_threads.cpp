@@ -20,23 +20,16 @@ namespace polylidar {
 namespace {
 
 using testing::PointSet;
+using testing::repeated;
 
 constexpr std::size_t kCount = 30'000;  // enough for several parts on each of eight threads
 
-std::vector<Point> repeated(const std::vector<Point>& points, std::size_t times) {
-  std::vector<Point> result;
-  for (std::size_t i = 0; i < times; ++i) result.insert(result.end(), points.begin(), points.end());
-  return result;
-}
-
 std::vector<Point> clusters(std::size_t count, std::size_t of_points, double distance) {
+  const std::vector<Point> places = testing::lattice(10, 10, distance);
   std::vector<Point> result;
   for (std::size_t c = 0; c < count; ++c) {
-    const std::size_t row = c / 10;
-    for (const Point& p : testing::uniform_points(of_points, c)) {
-      result.push_back(
-          {p.x + distance * static_cast<double>(c % 10), p.y + distance * static_cast<double>(row)});
-    }
+    result =
+        testing::joined(result, testing::transformed(testing::uniform_points(of_points, c), 1, places[c]));
   }
   return result;
 }

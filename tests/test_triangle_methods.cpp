@@ -25,7 +25,6 @@ namespace {
 using polylidar::Options;
 using polylidar::testing::canonical;
 using polylidar::testing::core_hull;
-using polylidar::testing::distance;
 
 /// Whether rounding decides nothing in Delaunator, whose tests of circles and distances are plain arithmetic;
 /// on cocircular points any of several triangulations is right, too.
@@ -85,29 +84,45 @@ class TriangleMethod : public ::testing::Test {
     }
   }
 
-  void expect_same_polygons_on_samples_of_shapes() {
-    for (const HullSample& sample : hull_samples()) {
-      SCOPED_TRACE(sample.name);
-      const double spacing = std::sqrt(sample.area / static_cast<double>(sample.points.size()));
-      for (const double spacings : {0.9, 1.3, 2.1, 3.3}) {
-        expect_same_polygons(sample.points, {.alpha = spacings * spacing});
-      }
-    }
-  }
-
-  /// Cocircular points have several triangulations, whose triangles on one circle are kept or dropped
-  /// together. The gaps touch one another and the outside at vertices.
-  void expect_same_polygons_on_lattices_with_gaps() {
-    for (std::uint64_t seed = 0; seed < 100; ++seed) {
-      SCOPED_TRACE("seed " + std::to_string(seed));
-      const std::vector<Point> points = polylidar::testing::lattice_with_gaps(seed);
-      expect_same_polygons(points, {.alpha = 0.75});
-      expect_same_polygons(points, {.alpha = 1.05});
-    }
-  }
-
   ManifestMethod method_;
 };
+
+/// A method that gives the core's polygons wherever rounding decides nothing.
+class SameAsTheCore : public TriangleMethod, public ::testing::WithParamInterface<const char*> {
+ protected:
+  SameAsTheCore() : TriangleMethod(GetParam()) {}
+};
+
+INSTANTIATE_TEST_SUITE_P(Methods, SameAsTheCore, ::testing::Values("delaunator", "scipy_alpha_shape"),
+                         [](const auto& tested) { return std::string(tested.param); });
+
+TEST_P(SameAsTheCore, OnRandomPoints) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    expect_same_polygons(polylidar::testing::uniform_points(3 + 12 * seed, seed, 100));
+  }
+}
+
+TEST_P(SameAsTheCore, OnSamplesOfShapes) {
+  for (const HullSample& sample : hull_samples()) {
+    SCOPED_TRACE(sample.name);
+    const double spacing = std::sqrt(sample.area / static_cast<double>(sample.points.size()));
+    for (const double spacings : {0.9, 1.3, 2.1, 3.3}) {
+      expect_same_polygons(sample.points, {.alpha = spacings * spacing});
+    }
+  }
+}
+
+// Cocircular points have several triangulations, whose triangles on one circle are kept or dropped together.
+// The gaps touch one another and the outside at vertices.
+TEST_P(SameAsTheCore, OnLatticesWithGaps) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const std::vector<Point> points = polylidar::testing::lattice_with_gaps(seed);
+    expect_same_polygons(points, {.alpha = 0.75});
+    expect_same_polygons(points, {.alpha = 1.05});
+  }
+}
 
 class DelaunatorTest : public TriangleMethod {
  protected:
@@ -123,21 +138,6 @@ TEST_F(DelaunatorTest, ItsLimitsAreInclusive) {
     EXPECT_EQ(method_.hull(points, {{name, std::nextafter(limit, 0)}}), MultiPolygon());
     EXPECT_EQ(method_.hull(points, {{name, 0}}), MultiPolygon());
   }
-}
-
-TEST_F(DelaunatorTest, GivesTheCoresPolygonsOnRandomPoints) {
-  for (std::uint64_t seed = 0; seed < 50; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    expect_same_polygons(polylidar::testing::uniform_points(3 + 12 * seed, seed, 100));
-  }
-}
-
-TEST_F(DelaunatorTest, GivesTheCoresPolygonsOnSamplesOfShapes) {
-  expect_same_polygons_on_samples_of_shapes();
-}
-
-TEST_F(DelaunatorTest, GivesTheCoresPolygonsOnLatticesWithGaps) {
-  expect_same_polygons_on_lattices_with_gaps();
 }
 
 TEST_F(DelaunatorTest, GivesTheCoresPolygonsOnNastyPointSets) {
@@ -159,21 +159,6 @@ class SciPyAlphaShapeTest : public TriangleMethod {
  protected:
   SciPyAlphaShapeTest() : TriangleMethod("scipy_alpha_shape") {}
 };
-
-TEST_F(SciPyAlphaShapeTest, GivesTheCoresPolygonsOnRandomPoints) {
-  for (std::uint64_t seed = 0; seed < 50; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    expect_same_polygons(polylidar::testing::uniform_points(3 + 12 * seed, seed, 100));
-  }
-}
-
-TEST_F(SciPyAlphaShapeTest, GivesTheCoresPolygonsOnSamplesOfShapes) {
-  expect_same_polygons_on_samples_of_shapes();
-}
-
-TEST_F(SciPyAlphaShapeTest, GivesTheCoresPolygonsOnLatticesWithGaps) {
-  expect_same_polygons_on_lattices_with_gaps();
-}
 
 // Far from the origin a lattice's steps are uneven. Qhull's triangles there overlap or are flat, and what is
 // round them is no polygon.
@@ -212,11 +197,8 @@ std::vector<double> circumradii(const std::vector<Point>& points,
                                 const polylidar::Triangulation& triangulation) {
   std::vector<double> radii;
   for (std::size_t t = 0; t < triangulation.triangles.size(); t += 3) {
-    const Point& a = points[triangulation.triangles[t]];
-    const Point& b = points[triangulation.triangles[t + 1]];
-    const Point& c = points[triangulation.triangles[t + 2]];
-    const double cross = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    radii.push_back(distance(a, b) * distance(b, c) * distance(c, a) / (2 * cross));
+    const auto corner = [&](std::size_t k) { return points[triangulation.triangles[t + k]]; };
+    radii.push_back(polylidar::testing::circumradius(corner(0), corner(1), corner(2)));
   }
   return radii;
 }

@@ -155,13 +155,9 @@ bool looks_by_places(WindowSample& sample, const Points& points, unsigned thread
 
 /// Points of the unit square, three times as dense at its right side as at its left.
 Points denser_to_the_right(std::size_t count, std::uint64_t seed) {
-  testing::Random random(seed);
-  Points points;
-  while (points.size() < count) {
-    const Point p{random.between(0, 1), random.between(0, 1)};
-    if (random.between(0, 1) < (1 + 2 * p.x) / 3) points.push_back(p);
-  }
-  return points;
+  return testing::points_where(count, seed, 1, 1, [](const Point& p, testing::Random& random) {
+    return random.between(0, 1) < (1 + 2 * p.x) / 3;
+  });
 }
 
 TEST(WindowSample, HasAPlaceForEveryPoint) {

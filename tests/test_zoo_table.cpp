@@ -1,6 +1,8 @@
 // The table of the plan zoo: what each cell says, and that it takes the place of the other tables.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -70,11 +72,11 @@ TEST(ZooTable, PointsWithoutAnAreaHaveAnEmptyHull) {
   EXPECT_EQ(word_of(record::Status::kCrash, false), "crash");
 }
 
-/// Two cases; the points of the second one have no area, as their convex hull tells.
-json zoo_report() {
-  json report = report_on_shapes({{"zoo-one", 5, 1}, {"zoo-flat", 5, 1}});
+/// Two cases. Of the second one all results are empty, the convex hull too.
+json zoo_report(const std::string& one = "zoo-one", const std::string& flat = "zoo-flat") {
+  json report = report_on_shapes({{one, 5, 1}, {flat, 5, 1}});
   report["plan"]["name"] = "zoo";
-  report["datasets"][0]["name"] = "zoo-one";
+  report["datasets"][0]["name"] = one;
   report["datasets"][0]["title"] = "One point";
   for (json& run : report.at("runs")) {
     if (run.at("method") == "cgal_alpha_shape") {
@@ -84,9 +86,9 @@ json zoo_report() {
     if (run.at("status") != "ok") continue;
     run["metrics"]["l2"] = 0.1;
     run["metrics"]["points_covered"] = 1;
-    run["metrics"]["polygons"] = run.at("dataset") == "zoo-flat" ? 0 : 1;
+    run["metrics"]["polygons"] = run.at("dataset") == flat ? 0 : 1;
   }
-  run_on(report, "polylidar", "zoo-one")["status"] = "crash";
+  run_on(report, "polylidar", one)["status"] = "crash";
   return report;
 }
 
@@ -103,6 +105,17 @@ TEST(ZooTable, HasARowACaseAndAColumnAMethod) {
   EXPECT_EQ(rows.at(3).at(0), "ok, of 2");
   EXPECT_EQ(rows.at(3).at(2), "1");
   for (const table::Table& table : document.tables) EXPECT_EQ(table.id.find("collection"), std::string::npos);
+}
+
+TEST(ZooTable, WhichPointsHaveAnAreaIsKnownWithoutTheConvexHullsRow) {
+  // One point, of which the hull must be empty, and points with an area.
+  const auto rows =
+      rows_of(report::make_document(zoo_report("zoo-qgis-65899", "zoo-libpysal-111")), "zoo_cases");
+  ASSERT_EQ(rows.size(), 4U);
+  const auto hull = std::ranges::find(rows.at(0), "convex_hull (default)") - rows.at(0).begin();
+  const auto column = static_cast<std::size_t>(hull);
+  EXPECT_EQ(rows.at(1).at(column), "wrong");
+  EXPECT_EQ(rows.at(2).at(column), "empty");
 }
 
 }  // namespace

@@ -17,7 +17,6 @@
 #include "polylidar/check.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
-#include "polylidar/predicates.hpp"
 #include "tests/both_ways.hpp"
 #include "tests/fuzz/fuzz_input.hpp"
 #include "tests/hull_oracle.hpp"
@@ -76,19 +75,6 @@ auto refused_or(const Input& input, bool supported, const char* what, Call call)
     if (supported) fail(input, std::string(what) + ": refused: " + error.what());
     return std::nullopt;
   }
-}
-
-// No four points of two neighbouring triangles lie on a circle. `points` are in the predicates' range.
-bool is_unique(std::span<const Point> points, const Triangulation& triangulation) {
-  const std::vector<std::uint32_t>& twins = triangulation.halfedges;
-  const auto at = [&](std::size_t half_edge) { return points[triangulation.triangles[half_edge]]; };
-  for (std::size_t e = 0; e < twins.size(); ++e) {
-    if (twins[e] == kNone) continue;
-    const std::size_t first = e - e % 3;
-    const std::size_t opposite = twins[e] - twins[e] % 3 + (twins[e] + 2) % 3;
-    if (incircle(at(first), at(first + 1), at(first + 2), at(opposite)) == 0) return false;
-  }
-  return true;
 }
 
 IndexedMultiPolygon checked_hull(const Input& input, const Options& options, const char* what) {
@@ -167,13 +153,10 @@ void check_clear_limits(const Input& input, std::span<const Point> in_range,
   const MultiPolygon shape = to_coordinates(indexed, in_range);
   require(input, shape.size() == expected.polygons, "clear limits: as many polygons as components");
   require(input, hole_count(shape) == expected.holes, "clear limits: as many holes as Euler's formula says");
-  const Box box = bounding_box(in_range);
-  const double extent = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
-  // The rounding of some thousand terms, each off by at most an ulp of the squared extent.
-  const double tolerance = in_range.empty() ? 0 : 1e-12 * extent * extent;
-  require(input, std::abs(area(shape) - expected.area) <= tolerance, "clear limits: the same area");
+  require(input, std::abs(area(shape) - expected.area) <= testing::area_tolerance(in_range),
+          "clear limits: the same area");
 
-  if (!is_unique(in_range, triangulation)) return;
+  if (!testing::is_unique(in_range, triangulation)) return;
   const std::vector<Point> reversed(in_range.rbegin(), in_range.rend());
   require(input, canonical(to_coordinates(concave_hull(reversed, options), reversed)) == canonical(shape),
           "clear limits: the shape of the points in reverse");

@@ -1,54 +1,35 @@
 // The demo page in Chromium, opened from the disk: PAGE is its file, PACKAGE the npm package's folder, OUTPUT a folder for
 // the files that are opened and for screenshots.
 import assert from "node:assert/strict";
-import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
+import { before } from "node:test";
 import { pathToFileURL } from "node:url";
 import { gzipSync } from "node:zlib";
 import { example } from "../../core/js/demo/examples.js";
 import { equal_area } from "../../core/js/demo/plane.js";
-import { launch, open_page } from "../report/browser.mjs";
-import { las } from "./point_files.mjs";
+import { axe_findings, empty_output, output, page_tests } from "../report/page_tests.mjs";
+import { las, pairs } from "./point_files.mjs";
 
-const { PAGE, PACKAGE, OUTPUT } = process.env;
+const { PAGE, PACKAGE } = process.env;
 const from_file = (path) => import(pathToFileURL(path));
 const { concaveHull } = await from_file(join(PACKAGE, "polylidar.js"));
 const methods = createRequire(new URL("../../adapters/manifests/package.json", import.meta.url));
 const { default: concaveman } = await from_file(methods.resolve("concaveman"));
-const axe = readFileSync(createRequire(new URL("../report/", import.meta.url)).resolve("axe-core/axe.min.js"), "utf8");
 const DONE = () => document.body.dataset.state === "done";
 const EXAMPLE = 20_000;
 
-let browser;
-before(async () => {
-  rmSync(OUTPUT, { recursive: true, force: true });
-  mkdirSync(OUTPUT, { recursive: true });
-  browser = await launch();
-});
-after(() => browser?.close());
-
-/** A test with a page of its own, which may ask for nothing but its worker, and on whose console nothing may appear. */
-function page_test(name, options, body) {
-  test(name, async () => {
-    const { page, troubles } = await open_page(browser, PAGE, { ready: DONE, ...options });
-    await body(page);
-    assert.deepEqual(
-      troubles.filter((trouble) => !trouble.startsWith("request: blob:null/")),
-      [],
-    );
-    await page.context().close();
-  });
-}
+// The page may ask for its worker.
+const { page_test: test_of_file } = page_tests({ ready: DONE }, (trouble) => !trouble.startsWith("request: blob:null/"));
+const page_test = (name, options, body) => test_of_file(name, PAGE, options, body);
+before(empty_output);
 
 function file(name, content) {
-  const path = join(OUTPUT, name);
-  writeFileSync(path, content);
-  return path;
+  writeFileSync(output(name), content);
+  return output(name);
 }
 
-const pairs = (xy) => Array.from({ length: xy.length / 2 }, (_, i) => [xy[2 * i], xy[2 * i + 1]]);
 const csv = (points) => "x,y\n" + points.map(([x, y]) => `${x},${y}\n`).join("");
 const text = (page, id) => page.locator(`#${id}`).textContent();
 const measure = new Intl.NumberFormat("en", { maximumSignificantDigits: 4 });
@@ -253,11 +234,9 @@ for (const theme of ["light", "dark"]) {
       await page.locator("#file").setInputFiles(file("bad.csv", "1,2\nthree,4\n"));
       await settled(page);
       await page.waitForTimeout(200);
-      await page.screenshot({ path: join(OUTPUT, `page-${width}-${theme}.png`), fullPage: true });
+      await page.screenshot({ path: output(`page-${width}-${theme}.png`), fullPage: true });
       assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "it is wider than the window");
-      const violations = await page.evaluate(`${axe}; axe.run().then(({ violations }) =>
-        violations.map(({ id, nodes }) => id + ": " + nodes.map(({ html }) => html).join(" ")))`);
-      assert.deepEqual(violations, []);
+      assert.deepEqual(await axe_findings(page, {}), []);
     });
   }
 }

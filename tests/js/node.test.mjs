@@ -6,6 +6,7 @@ import { join } from "node:path";
 import { before, test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { assert_same, native_cases, plain } from "./native_hulls.mjs";
+import { pairs } from "./point_files.mjs";
 
 const { PACKAGE } = process.env;
 const polylidar = await import(pathToFileURL(join(PACKAGE, "polylidar.js")));
@@ -100,21 +101,7 @@ test("points may be of any numeric type", () => {
 });
 
 test("no points, too few and those on a line have no hull", () => {
-  for (const points of [
-    [],
-    [[1, 2]],
-    [
-      [0, 0],
-      [3, 4],
-      [3, 4],
-    ],
-    [
-      [0, 0],
-      [1, 1],
-      [2, 2],
-      [3, 3],
-    ],
-  ]) {
+  for (const points of [[], [[1, 2]], pairs([0, 0, 3, 4, 3, 4]), pairs([0, 0, 1, 1, 2, 2, 3, 3])]) {
     const hull = concaveHull(points);
     assert.deepEqual(hull.coordinates, []);
     assert.equal(hull.area, 0);
@@ -150,30 +137,12 @@ test("errors say what the core says, and leave the module in order", () => {
   const expected = plain(concaveHull(points));
   const errors = [
     [() => concaveHull([...points, [Infinity, 0]]), RangeError, "point 100 is not finite"],
-    [
-      () =>
-        concaveHull([
-          [0, 0],
-          [1, 0],
-          [undefined, 1],
-        ]),
-      RangeError,
-      "point 2 is not finite",
-    ],
+    [() => concaveHull(pairs([0, 0, 1, 0, undefined, 1])), RangeError, "point 2 is not finite"],
     [() => concaveHull(points, { detail: 0 }), RangeError, "detail must be positive and finite"],
     [() => concaveHull(points, { alpha: -1 }), RangeError, "alpha must be zero or more"],
     [() => concaveHull(points, { maxPerimeter: NaN }), RangeError, "max_perimeter must be zero or more"],
     [() => concaveHulls(points, [1, 2]), RangeError, "there must be one label a point: there are 2 labels and 100 points"],
-    [
-      () =>
-        concaveHull([
-          [0, 0],
-          [1e-300, 1],
-          [1e300, 2],
-        ]),
-      RangeError,
-      /^coordinates span more than a factor of/,
-    ],
+    [() => concaveHull(pairs([0, 0, 1e-300, 1, 1e300, 2])), RangeError, /^coordinates span more than a factor of/],
     [() => concaveHull(points, 2), TypeError, /^options must be an object, such as \{ detail: 2 \}/],
     [() => concaveHull(points, null), TypeError, /^options must be an object/],
     [() => concaveHull(points, { aplha: 1 }), TypeError, /^there is no option 'aplha': there are detail, alpha/],
@@ -192,26 +161,12 @@ test("errors say what the core says, and leave the module in order", () => {
   }
 });
 
-function assertItStillWorks() {
-  const triangle = [
-    [0, 0],
-    [1, 0],
-    [0, 1],
-  ];
-  assert.equal(concaveHull(triangle).area, 0.5);
-}
+const assert_it_still_works = () => assert.equal(concaveHull(pairs([0, 0, 1, 0, 0, 1])).area, 0.5);
 
 test("any number of errors leaves no trace", () => {
-  for (let i = 0; i < 3000; i++)
-    assert.throws(
-      () =>
-        concaveHull([
-          [0, 0],
-          [NaN, 1],
-        ]),
-      /^RangeError: point 1 is not finite$/,
-    );
-  assertItStillWorks();
+  const points = pairs([0, 0, NaN, 1]);
+  for (let i = 0; i < 3000; i++) assert.throws(() => concaveHull(points), /^RangeError: point 1 is not finite$/);
+  assert_it_still_works();
 });
 
 test("memory that does not suffice is an error like any other", () => {
@@ -219,7 +174,7 @@ test("memory that does not suffice is an error like any other", () => {
     name: "RangeError",
     message: /^there is not enough memory/,
   });
-  assertItStillWorks();
+  assert_it_still_works();
 });
 
 test("CommonJS gives the same", () => {
@@ -296,19 +251,7 @@ test("the ring runs as concaveman's does, and its points on a line too", beside_
       assert.equal(Math.sign(theirs), -1);
     }
   }
-  for (const line of [
-    [
-      [2, 2],
-      [0, 0],
-      [1, 1],
-    ],
-    [
-      [0, 0],
-      [0, 5],
-      [0, 2],
-    ],
-    [[1, 2]],
-  ]) {
+  for (const line of [pairs([2, 2, 0, 0, 1, 1]), pairs([0, 0, 0, 5, 0, 2]), [[1, 2]]]) {
     assert.deepEqual(concaveman(line), rival(structuredClone(line)));
   }
 });
@@ -359,23 +302,8 @@ test("lengthThreshold fills what it fills with concaveman", beside_concaveman, (
 
 test("concaveman's ring of points without an area", () => {
   assert.deepEqual(concaveman([]), []);
-  assert.deepEqual(concaveman([[1, 2]]), [
-    [1, 2],
-    [1, 2],
-    [1, 2],
-  ]);
-  assert.deepEqual(
-    concaveman([
-      [2, 2],
-      [0, 0],
-      [1, 1],
-    ]),
-    [
-      [2, 2],
-      [0, 0],
-      [2, 2],
-    ],
-  );
+  assert.deepEqual(concaveman([[1, 2]]), pairs([1, 2, 1, 2, 1, 2]));
+  assert.deepEqual(concaveman(pairs([2, 2, 0, 0, 1, 1])), pairs([2, 2, 0, 0, 2, 2]));
   assert.throws(() => concaveman(new Float64Array(6)), /^TypeError: points must be an array of \[x, y\], whose members/);
 });
 

@@ -1,4 +1,8 @@
-// Files of points in the formats that the demo page reads, written independently of its readers.
+// Points, and files of them in the formats that the demo page reads, written independently of its readers.
+
+/** Numbers as points of two each, or as rows of `width`. */
+export const pairs = (numbers, width = 2) =>
+  Array.from({ length: numbers.length / width }, (_, i) => [...numbers.slice(width * i, width * (i + 1))]);
 
 /** Points [x, y] as a LAS file: version 1.2 with point format 0, or 1.4 with format 6. */
 export function las(points, { minor = 2, scale = 0.01, offset = [500000, 4000000], format = minor < 4 ? 0 : 6, cut = 0 } = {}) {

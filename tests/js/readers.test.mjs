@@ -4,13 +4,9 @@ import { test } from "node:test";
 import { gzipSync } from "node:zlib";
 import { FileError, read_points } from "../../core/js/demo/readers.js";
 import { equal_area } from "../../core/js/demo/plane.js";
-import { las, npy } from "./point_files.mjs";
+import { las, npy, pairs } from "./point_files.mjs";
 
-const ROWS = [
-  [1, 2],
-  [-3.5, 4],
-  [0.25, -7],
-];
+const ROWS = pairs([1, 2, -3.5, 4, 0.25, -7]);
 const read = (content) => read_points(new Uint8Array(Buffer.from(content)));
 
 async function assert_rows(content, rows = ROWS, lonlat = false) {
@@ -55,40 +51,12 @@ test("NPY", async () => {
   await assert_rows(npy(ROWS));
   await assert_rows(npy(ROWS, ">f8", { version: 2 }));
   await assert_rows(npy(ROWS, "<f4", { fortran: true }));
-  await assert_rows(
-    npy(
-      [
-        [1, 2, 9],
-        [3, 4, 9],
-      ],
-      ">i4",
-    ),
-    [
-      [1, 2],
-      [3, 4],
-    ],
-  );
-  await assert_rows(
-    npy(
-      [
-        [1, 2],
-        [-3, 4],
-      ],
-      "<i8",
-      { version: 3 },
-    ),
-    [
-      [1, 2],
-      [-3, 4],
-    ],
-  );
+  await assert_rows(npy(pairs([1, 2, 9, 3, 4, 9], 3), ">i4"), pairs([1, 2, 3, 4]));
+  await assert_rows(npy(pairs([1, 2, -3, 4]), "<i8", { version: 3 }), pairs([1, 2, -3, 4]));
 });
 
 test("LAS", async () => {
-  const rows = [
-    [500001.25, 4000002.5],
-    [499999.5, 4000000],
-  ];
+  const rows = pairs([500001.25, 4000002.5, 499999.5, 4000000]);
   await assert_rows(las(rows), rows);
   await assert_rows(las(rows, { minor: 4 }), rows);
   assert.equal((await read(las(rows, { minor: 4 }))).format, "LAS 1.4");

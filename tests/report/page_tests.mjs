@@ -48,18 +48,19 @@ export function write_invented_report(folder) {
 }
 
 /** {open_file, page_test}, with a browser for all tests of a file. Options are those of open_page, `hash` what stands behind
-    the file's name. page_test makes a test with a page of its own, in which nothing may go wrong on the side. */
-export function page_tests(defaults = {}) {
+    the file's name, which is one of OUTPUT or a path. page_test makes a test with a page of its own, in which nothing may go
+    wrong on the side but what `is_trouble` does not count. */
+export function page_tests(defaults = {}, is_trouble = () => true) {
   let browser;
   before(async () => (browser = await launch()));
   after(() => browser?.close());
   const open_file = (name, { hash = "", ...options } = {}) =>
-    open_page(browser, output(name) + hash, { ...defaults, ...options });
+    open_page(browser, resolve(OUTPUT, name) + hash, { ...defaults, ...options });
   const page_test = (name, file, options, body) =>
     test(name, async () => {
       const { page, troubles } = await open_file(file, options);
       await body(page);
-      assert.deepEqual(troubles, []);
+      assert.deepEqual(troubles.filter(is_trouble), []);
       await page.context().close();
     });
   return { open_file, page_test };
