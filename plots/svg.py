@@ -17,6 +17,7 @@ _FONT_SIZE = 11.5
 # Of a name from its mark, the best first.
 _OFFSETS = ((8, 4), (6, -6), (6, 14), (2, -9), (2, 17))
 _LINE = 14.0  # between the names under each other
+_BESIDE = 2.0  # free on either side of a name
 _LEFT, _TOP, _BOTTOM = 42.0, 10.0, 38.0
 
 
@@ -138,7 +139,7 @@ def beside(
         chosen = None
         for left, base, anchor in choices:
             start = left if anchor == "start" else left - width
-            area = (start, base - 10, start + width, base + 2)
+            area = (start - _BESIDE, base - 10, start + width + _BESIDE, base + 2)
             inside = box[0] <= area[0] and area[2] <= box[2] and box[1] <= area[1] and area[3] <= box[3]
             if inside and not any(_overlap(area, other) for other in covered):
                 chosen = (left, base, anchor)

@@ -908,6 +908,17 @@ TEST_F(RunnerTest, AMethodThatCompilesIsWarmBeforeItsFirstCase) {
   EXPECT_EQ(record::validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
 }
 
+TEST_F(RunnerTest, WhereTimesHardlyMatterOnlyTheProcessIsWarmedUp) {
+  plan::Plan plan = plan_of_small_cases({"gets_faster"}, 2);
+  plan.warmup = 0;
+  EXPECT_EQ(exit_code(measure(plan, &compiling_worker_of)), 0);
+  const auto measured = lines("runs.jsonl");
+  ASSERT_EQ(measured.size(), 2U);
+  // 115 runs, the repetitions, and the untimed one behind them.
+  EXPECT_EQ(measured[0]["time_ns"], (json{800'116, 800'117}));
+  EXPECT_EQ(measured[1]["time_ns"], (json{800'119, 800'120}));
+}
+
 TEST_F(RunnerTest, EveryPassWarmsItsOwnProcesses) {
   plan::Plan plan = plan_of({"gets_faster"}, 2);
   plan.passes = 2;
@@ -940,7 +951,7 @@ TEST_F(RunnerTest, OnlyTheFirstCallOfAProcessIsAColdOne) {
     run::MethodRun run(drawn, "polylidar", {});
     run.begin(session, session.info(), 20);
     run.record.parameters["alpha"] = alpha;
-    bench.warm_up(run);
+    bench.warm_up(run, run::WarmUpFor::kEachRow);
     return run.record;
   };
   EXPECT_EQ(to_string(warm_up(-1).status), "error");

@@ -85,7 +85,8 @@ struct Plan {
   /// How often the plan is gone through from the first case to the last, so that each method's repetitions
   /// are spread over the whole time.
   int passes = 1;
-  /// Untimed runs before them; with 0 there is one after them. The first run of all is scored, and every
+  /// Untimed runs before them; with 0 there is one after them, and methods that compile while they run are
+  /// warmed up once a process instead of for each row. The first run of all is scored, and every
   /// other one must give its result.
   int warmup = 1;
   double timeout_s = 120;             ///< wall-clock seconds for one request to a worker

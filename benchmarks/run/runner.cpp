@@ -430,7 +430,7 @@ class Runner {
   std::optional<worker::Attempt> attempt_run(Entry& entry, worker::Watch watch) {
     progress_.begin(entry.index);
     MethodRun& run = entry.run;
-    bench_.warm_up(run);
+    bench_.warm_up(run, plan_.warmup > 0 ? run::WarmUpFor::kEachRow : run::WarmUpFor::kProcess);
     if (run.over) return std::nullopt;
     const bool is_first = run.record.output_sha256.empty();
     worker::Attempt attempt = bench_.attempt(run, watch);

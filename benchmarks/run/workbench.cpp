@@ -77,9 +77,11 @@ void Workbench::start(Progress& progress) {
   }
 }
 
-void Workbench::warm_up(MethodRun& run) {
+void Workbench::warm_up(MethodRun& run, WarmUpFor wanted) {
   const worker::LoadedPoints& points = points_of(run);
-  if (!run.session->is_cold(points, run.record.parameters)) return;
+  const bool is_cold = wanted == WarmUpFor::kProcess ? run.session->is_cold()
+                                                     : run.session->is_cold(points, run.record.parameters);
+  if (!is_cold) return;
   const bool is_new = !run.session->has_run();
   const worker::Attempt first = run.session->warm_up(points, run.record.parameters, scratch_, run.timeout);
   if (first.status != record::Status::kOk) {

@@ -48,6 +48,10 @@ struct MethodRun {
   bool over = false;                              ///< nothing is left to run
 };
 
+/// What a method that compiles while it runs is warmed up for: its process alone, where times hardly matter,
+/// or each row.
+enum class WarmUpFor { kProcess, kEachRow };
+
 /// The workers of some methods, and the points that they have. Of one thread, as workers end with the thread
 /// that started them.
 class Workbench {
@@ -72,7 +76,7 @@ class Workbench {
 
   /// Runs a method that compiles while it runs until it is steady, unless it is; the row says how long the
   /// first call of the process took, if that was its own. For who times.
-  void warm_up(MethodRun& run);
+  void warm_up(MethodRun& run, WarmUpFor wanted);
 
   /// Runs it once. The first result is kept to be scored, and every other one must be the same, byte for
   /// byte. When that is not so, and when the method fails, the run is over. Throws Interrupted.
