@@ -136,21 +136,15 @@ class Widening {
     std::vector<std::uint32_t> all(points_.size());
     std::iota(all.begin(), all.end(), 0U);
     std::vector<std::uint32_t> outside = all;
-    return least_factor(1, [&](double factor) {
-      const PointLocator locator(to_coordinates(shape(factor), points_));
-      const auto outside_of = [&](const std::vector<std::uint32_t>& some) {
-        std::vector<std::uint32_t> left;
-        std::copy_if(some.begin(), some.end(), std::back_inserter(left),
-                     [&](std::uint32_t i) { return !locator.contains(points_[i]); });
-        return left;
-      };
-      std::vector<std::uint32_t> left = outside_of(outside);
-      // Whoever is covered mostly stays so, but a small part may be dropped beside one that has grown.
-      if (left.empty()) left = outside_of(all);
+    const double factor = least_factor(1, [&](double wider) {
+      std::vector<std::uint32_t> left = outside_of(shape(wider), outside);
       if (left.empty()) return true;
-      outside = std::move(left);
+      outside = std::move(left);  // who is covered stays covered
       return false;
     });
+    // But a small part may be dropped beside one that has grown.
+    if (factor == 1 || outside_of(shape(factor), all).empty()) return factor;
+    return least_factor(factor, [&](double wider) { return outside_of(shape(wider), all).empty(); });
   }
 
   /// The least factor from `least` on with all polygons that `least` gives in one.
@@ -184,6 +178,16 @@ class Widening {
   }
 
  private:
+  /// Those of `some` points that the shape does not cover.
+  std::vector<std::uint32_t> outside_of(const IndexedMultiPolygon& shape,
+                                        const std::vector<std::uint32_t>& some) const {
+    const PointLocator locator(to_coordinates(shape, points_));
+    std::vector<std::uint32_t> left;
+    std::copy_if(some.begin(), some.end(), std::back_inserter(left),
+                 [&](std::uint32_t i) { return !locator.contains(points_[i]); });
+    return left;
+  }
+
   Extractor& extractor_;
   std::vector<Point> scaled_;      ///< empty unless they differ from the caller's
   std::span<const Point> points_;  ///< as the predicates can handle them
