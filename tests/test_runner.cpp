@@ -225,6 +225,21 @@ TEST_F(RunnerTest, RealPointsThatAreNotInstalledAreRowsThatSaySo) {
   EXPECT_EQ(record::validate_report(report), std::vector<std::string>());
 }
 
+/// Two recordings in `folder`, the first one with the points `odd`. Returns the first one's folder.
+fs::path write_odd_and_good_recording(const fs::path& folder, const std::string& odd) {
+  write_recording(folder / "a");
+  write_recording(folder / "b");
+  write_text(folder / "a" / "points.txt", odd);
+  return folder / "a";
+}
+
+/// The plan, which has the first recording, with the second one too.
+json with_second_recording(const plan::Plan& plan) {
+  json source = plan::plan_to_json(plan);
+  source["cases"].push_back({{"dataset", "real-recorded-2"}});
+  return source;
+}
+
 /// The rows of a run by "METHOD/DATASET".
 std::map<std::string, record::RunRecord> by_dataset(const std::vector<json>& lines) {
   std::map<std::string, record::RunRecord> result;
@@ -236,13 +251,9 @@ std::map<std::string, record::RunRecord> by_dataset(const std::vector<json>& lin
 }
 
 TEST_F(RunnerTest, PointsThatCannotBeReadAreRowsThatSaySoAndTheOthersAreMeasured) {
-  const fs::path broken = folder_.path() / "recordings" / "broken";
-  write_recording(broken);
-  write_recording(folder_.path() / "recordings" / "scene");
-  write_text(broken / "points.txt", "0 0\n0 nan\n1 1\n");
   folders_.recordings = folder_.path() / "recordings";
-  json source = plan::plan_to_json(real_plan_of({"polylidar", "convex_hull"}, "real-recorded-1", 1));
-  source["cases"].push_back({{"dataset", "real-recorded-2"}});
+  const fs::path broken = write_odd_and_good_recording(folders_.recordings, "0 0\n0 nan\n1 1\n");
+  const json source = with_second_recording(real_plan_of({"polylidar", "convex_hull"}, "real-recorded-1", 1));
   const plan::Plan plan = plan::parse_plan(source.dump(), "test");
   EXPECT_EQ(exit_code(measure(plan)), kExitFailures);
   for (const auto& [name, row] : by_dataset(lines("runs.jsonl"))) {
@@ -262,13 +273,9 @@ TEST_F(RunnerTest, PointsThatCannotBeReadAreRowsThatSaySoAndTheOthersAreMeasured
 }
 
 TEST_F(RunnerTest, PointsThatNothingCanBeMadeOfEndNoRun) {
-  const fs::path wide = folder_.path() / "recordings" / "a";
-  write_recording(wide);
-  write_recording(folder_.path() / "recordings" / "b");
-  write_text(wide / "points.txt", "0 0\n1e-200 1\n1e200 0\n");
   folders_.recordings = folder_.path() / "recordings";
-  json source = plan::plan_to_json(real_plan_of({"polylidar", "good"}, "real-recorded-1", 0));
-  source["cases"].push_back({{"dataset", "real-recorded-2"}});
+  write_odd_and_good_recording(folders_.recordings, "0 0\n1e-200 1\n1e200 0\n");
+  json source = with_second_recording(real_plan_of({"polylidar", "good"}, "real-recorded-1", 0));
   source["methods"][0]["protocol"] = "auto";
   source["methods"][0]["parameters"] = {{"max_edge_length", {{"rule", "auto_edge_length"}}}};
   EXPECT_EQ(exit_code(measure(plan::parse_plan(source.dump(), "test"))), kExitFailures);
