@@ -73,6 +73,24 @@ TEST(OutlineFill, FillsWhatOutlinesEnclose) {
   }
 }
 
+// A sorted outline's gaps are known; one step bridges them all but no wall.
+TEST(OutlineFill, TellsTheStepInTheUnitOfThePoints) {
+  for (const double unit : {1.0, 1e-200, 1e200}) {
+    SCOPED_TRACE(unit);
+    std::vector<Point> points = ring_island_and_disc(1);
+    for (Point& point : points) point = {point.x * unit, point.y * unit};
+    Extractor extractor;
+    extractor.extract(points);
+    EXPECT_GT(extractor.statistics().outline_step, 1 * unit);
+    EXPECT_LT(extractor.statistics().outline_step, 70 * unit);  // the walls of 120 and 50 are that far apart
+    extractor.extract(points, {.alpha = unit});
+    EXPECT_EQ(extractor.statistics().outline_step, 0);
+  }
+  Extractor extractor;
+  extractor.extract(testing::circle(100, 10));
+  EXPECT_EQ(extractor.statistics().outline_step, kNoLimit);
+}
+
 /// The border of the square [0, side]^2 in steps of 1.
 std::vector<Point> border_of_square(int side) {
   std::vector<Point> points;

@@ -747,8 +747,8 @@ TEST(Plan, StatesIsThePapersExperiment) {
   EXPECT_EQ(plan.repetitions, 10);
   EXPECT_EQ(plan.expanded_cases.size(), 24U);
   const auto count = [&](const std::string& filter) { return plan::planned_runs(plan, filter).size(); };
-  for (const char* method :
-       {"^polylidar/.*protocol:paper", "^cgal_alpha_shape/.*protocol:paper", "^spatialite/"})
+  for (const char* method : {"^polylidar/.*protocol:paper", "^cgal_alpha_shape/.*protocol:paper",
+                             "^spatialite/.*protocol:paper", "^spatialite/.*protocol:auto"})
     EXPECT_EQ(count(method), 24U) << method;
   EXPECT_EQ(count("^polylidar/.*protocol:default"), 24U);
   EXPECT_EQ(count("^postgis_legacy/ca/"), 12U);
@@ -888,6 +888,18 @@ TEST(ParameterRule, AutoSizeIsTheMedianOfTheSizesThatTheCoreKeepsTo) {
   EXPECT_EQ(plan::auto_size({set.points}), core.chosen_sizes()->median);
   EXPECT_LT(core.chosen_sizes()->least, plan::auto_size({set.points}));
   EXPECT_GT(core.chosen_sizes()->most, plan::auto_size({set.points}));
+}
+
+// The gaps between the points of an outline vary; the largest is bridged, the shape is not.
+TEST(ParameterRule, AutoBorderLengthIsTheStepAlongOutlines) {
+  const PointSet set = make_point_set("country-43~outline:0.1", false, 2000, 1);
+  polylidar::Extractor core;
+  core.extract(set.points);
+  ASSERT_TRUE(core.statistics().by_outlines);
+  EXPECT_EQ(plan::auto_border_length({set.points}), core.statistics().outline_step);
+  EXPECT_GT(plan::auto_border_length({set.points}), plan::auto_edge_length({set.points}));
+  const PointSet filled = make_point_set("country-43", false, 2000, 1);
+  EXPECT_EQ(plan::auto_border_length({filled.points}), plan::auto_edge_length({filled.points}));
 }
 
 TEST(ParameterRule, AutoRulesAreSharesOfOneSize) {

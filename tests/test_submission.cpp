@@ -153,7 +153,7 @@ TEST_F(SubmissionTest, APackIsTakenAndWhatIsWrongWithItIsFound) {
   const json run = read_json("pack/run/run.json");
   for (const json& method : run.at("methods"))
     EXPECT_EQ(method.contains("division"), "my_hull" == method["name"].get<std::string>());
-  EXPECT_EQ(read_lines("pack/run/runs.jsonl").size(), 120U);
+  EXPECT_EQ(read_lines("pack/run/runs.jsonl").size(), 150U);
   expect_refusal(hullbench({"submit", "pack", "my_hull", "--adapters", "methods", "--out", "pack"}), 2,
                  "is not empty");
 

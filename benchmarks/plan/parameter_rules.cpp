@@ -33,10 +33,26 @@ const std::vector<ParameterRule>& rules() {
       {"holes", "1 with holes, else 0", false, &holes_switch},
       {"auto_size", "S", false, &auto_size},
       {"auto_edge_length", share_of_size(kEdgeShare), false, &auto_edge_length},
+      {"auto_border_length", share_of_size(kEdgeShare) + " or a step along outlines", false,
+       &auto_border_length},
       {"auto_circumradius", share_of_size(kCircumradiusShare), false, &auto_circumradius},
       {"auto_circumradius_squared", "(" + share_of_size(kCircumradiusShare) + ")²", false,
        &auto_circumradius_squared}};
   return all;
+}
+
+/// What the core chooses for `points`, in their unit. 0 for points without a triangle.
+struct CoreChoice {
+  double size = 0;          ///< the median of its sizes
+  double outline_step = 0;  ///< between neighbours on outlines, where all points lie on such
+};
+
+CoreChoice choice_of_core(std::span<const Point> points) {
+  polylidar::Extractor extractor;
+  extractor.triangulate(points);
+  extractor.extract_regions({});
+  const std::optional<polylidar::ChosenSizes> sizes = extractor.chosen_sizes();
+  return {sizes ? sizes->median : 0, extractor.statistics().outline_step};
 }
 
 double convex_hull_area(std::span<const Point> points) {
@@ -94,15 +110,16 @@ double mean_spacing(std::span<const Point> points) {
 }
 
 double auto_size(const RuleInput& input) {
-  polylidar::Extractor extractor;
-  extractor.triangulate(input.points);
-  extractor.extract_regions({});
-  const std::optional<polylidar::ChosenSizes> sizes = extractor.chosen_sizes();
-  return sizes ? sizes->median : 0;
+  return choice_of_core(input.points).size;
 }
 
 double auto_edge_length(const RuleInput& input) {
   return kEdgeShare * auto_size(input);
+}
+
+double auto_border_length(const RuleInput& input) {
+  const CoreChoice choice = choice_of_core(input.points);
+  return std::max(kEdgeShare * choice.size, choice.outline_step);
 }
 
 double auto_circumradius(const RuleInput& input) {

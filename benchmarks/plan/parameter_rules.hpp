@@ -73,8 +73,14 @@ extern const double kEdgeShare;
 extern const double kCircumradiusShare;
 
 /// `auto_edge_length`: kEdgeShare * S, a length in the unit of the points: of the longest edge of a triangle
-/// that stays, or of an edge of the border beyond which the shape is eroded.
+/// that stays, or of an edge of a border beyond which the shape is eroded.
 double auto_edge_length(const RuleInput& input);
+
+/// `auto_border_length`: the same for methods that change the outer border only and keep all that is inside.
+/// They can make the shape of points that all lie on its outline, so if the core takes the points for such,
+/// the length is at least the core's step along outlines (Statistics::outline_step; infinity for a convex
+/// outline). Methods that also erode holes would lose the inside.
+double auto_border_length(const RuleInput& input);
 
 /// `auto_circumradius`: kCircumradiusShare * S, a length in the unit of the points.
 double auto_circumradius(const RuleInput& input);

@@ -142,6 +142,7 @@ void Extractor::State::choose_sizes(double detail) {
 void Extractor::State::find_regions(const Options& given_options) {
   chosen_sizes.reset();
   statistics.by_outlines = false;
+  statistics.outline_step = 0;
   if (is_any_limit_given(given_options)) {
     filter.run(builder.mesh(), builder.vertices(),
                detail::filter_rules(scaled(limits, builder.scale_exponent())), is_filled(given_options), pool,
@@ -150,6 +151,10 @@ void Extractor::State::find_regions(const Options& given_options) {
     choose_sizes(given_options.detail);
     statistics.by_outlines = filter.run(builder.mesh(), builder.vertices(), automatic_limit.field(),
                                         is_filled(given_options), pool, boundary);
+    if (statistics.by_outlines) {
+      const double step = std::sqrt(automatic_limit.field().outlines->squared_step);
+      statistics.outline_step = std::ldexp(step, -builder.scale_exponent());
+    }
   }
 }
 

@@ -155,6 +155,9 @@ struct Statistics {
   /// Whether the shape is what outlines enclose, because no limit was given and all points lie on outlines.
   /// Sizes did not decide then.
   bool by_outlines = false;
+  /// If by_outlines: the longest distance between neighbours on an outline, a length in the unit of the
+  /// points; kNoLimit if all points lie on their convex hull, which is the shape then. 0 if sizes decided.
+  double outline_step = 0;
 };
 
 /// concave_hull() that keeps its memory between calls, for callers that extract again and again. Do not use
