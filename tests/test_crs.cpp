@@ -21,6 +21,9 @@ TEST(CrsNames, TheirNumbers) {
   EXPECT_EQ(crs_of_name("urn:ogc:def:crs:EPSG:9.9:4258"), (Crs{4258, true, true}));
   EXPECT_EQ(crs_of_name("http://www.opengis.net/def/crs/EPSG/0/3857"), (Crs{3857, false, true}));
   EXPECT_EQ(crs_of_name("urn:ogc:def:crs:OGC:1.3:CRS84"), (Crs{4326, true, true}));
+  EXPECT_EQ(crs_of_name("urn:ogc:def:crs,crs:EPSG::4326,crs:EPSG::5773"), (Crs{4326, true, true}));
+  EXPECT_EQ(crs_of_name("urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::7837"), (Crs{25832, false, true}));
+  EXPECT_EQ(crs_of_name("EPSG:25832+7837"), (Crs{25832, false, true}));
   for (const char* none :
        {"", "EPSG", "EPSG:", "EPSG:x", "EPSG:-3", "EPSG:99999999999", "25832", "ESRI:102100"}) {
     EXPECT_EQ(crs_of_name(none), std::nullopt) << none;
@@ -31,8 +34,8 @@ TEST(CrsNumbers, OfDegreesAreThoseOfGeographicSystems) {
   // NAD83(2011), JGD2011, GDA2020, RGF93 v2b, CGCS2000, ETRS89 and WGS 84 in three dimensions, and the ends
   // of ranges.
   for (const int number :
-       {6318, 6668, 7844, 9784, 4490, 4937, 4979, 4326, 4258, 4269, 3819,  3821,  4120, 4216,
-        4218, 4327, 4329, 4339, 4383, 4921, 4999, 7915, 7931, 8948, 20033, 20040, 20041}) {
+       {6318, 6668, 7844, 9784, 4490, 4937, 4979, 4326, 4258, 4269, 3819, 3821, 4120,  4216,  9518, 6697,
+        9707, 5498, 4218, 4327, 4329, 4339, 4383, 4921, 4999, 7915, 7931, 8948, 20033, 20040, 20041}) {
     EXPECT_TRUE(crs_of_epsg(number).is_geographic) << number;
   }
   // Gauss-Krueger and UTM zones, plate carrees, geocentric, vertical and compound systems, and numbers of
@@ -80,6 +83,14 @@ TEST(CrsText, KnownNamesHaveNumbers) {
         "ETRS_1989_UTM_Zone_33S", "ETRS_1989_UTM_Zone_3N", "WGS_1984_World_Mercator", ""}) {
     EXPECT_EQ(projected(other), 0) << other;
   }
+  EXPECT_EQ(
+      crs_of_wkt(R"(PROJCS["NAD83 / UTM zone 10N",GEOGCS["x",UNIT["Degree",0.0174]],UNIT["Foot_US",0.3048]])")
+          ->epsg,
+      0);
+  EXPECT_EQ(crs_of_wkt(R"(PROJCRS["NAD83 / UTM zone 10N",BASEGEOGCRS["x"],CS[Cartesian,2],)"
+                       R"(AXIS["e",east,LENGTHUNIT["foot",0.3048]]])")
+                ->epsg,
+            0);
   EXPECT_EQ(crs_of_wkt(R"(GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984"]])"), (Crs{4326, true, true}));
   EXPECT_EQ(crs_of_wkt(R"(GEOGCS["GCS_North_American_1983"])"), (Crs{4269, true, true}));
   EXPECT_EQ(crs_of_wkt(R"(GEOGCS["GCS_Bessel"])"), (Crs{0, true, true, R"(GEOGCS["GCS_Bessel"])"}));

@@ -285,6 +285,44 @@ TEST_F(HullCommandTest, AReplacedFileKeepsItsMode) {
                  "cannot write " + out + ": Permission denied");
 }
 
+TEST_F(HullCommandTest, OutMayBeAPipeOrADescriptor) {
+  const std::string points = "'" + points_file() + "'";
+  const std::string printed = hull({points_file()}).out;
+  EXPECT_EQ(in_shell("", points + " -o /dev/stdout", "| cat").out, printed);
+  EXPECT_EQ(in_shell("", points + " -o /dev/fd/3", "3>&1 | cat").out, printed);
+  const std::string log = file("all.geojson", "first\n");
+  in_shell("", points + " -o /dev/stdout", ">> '" + log + "'");
+  EXPECT_EQ(read_text(log), "first\n" + printed);
+}
+
+TEST_F(HullCommandTest, NamesMayBeAsLongAsTheSystemHasThem) {
+  const std::string ending = ".geojson";
+  const std::string longest = (folder() / (std::string(255 - ending.size(), 'a') + ending)).string();
+  succeeded(hull({points_file(), "-o", longest}));
+  EXPECT_EQ(read_text(longest), hull({points_file()}).out);
+  const std::string longer = (folder() / (std::string(256, 'a') + ending)).string();
+  expect_refusal(hull({file("bad.csv", "x"), "-o", longer}), 1, "File name too long");  // before it is read
+}
+
+TEST_F(HullCommandTest, TheFormatOfASlowPipeIsThatOfItsFirstRow) {
+  const std::string wkt = file("points.wkt", "MULTIPOINT (0 0, 1 0, 0 1)\n");
+  const std::string expected = hull({wkt}).out;
+  EXPECT_EQ(in_shell("(echo '# a'; sleep 0.3; cat '" + wkt + "') |", "-").out, expected);
+  EXPECT_EQ(in_shell("(printf MULTI; sleep 0.3; printf 'POINT (0 0, 1 0, 0 1)') |", "-").out, expected);
+}
+
+TEST_F(HullCommandTest, TheCoordinateSystemBehindThePointsOfALasFileIsReadFromAPipeToo) {
+  LasFile las{.minor = 4, .format = 6};
+  for (int i = 0; i < 1000; ++i) las.points.push_back({.x = i % 32, .y = i / 32});
+  las.extended_records = {{"other", 1, std::string(3000, 'x')},
+                          {"LASF_Projection", 2112, R"(PROJCS["a",AUTHORITY["EPSG","32633"]])"}};
+  const std::string tile = file("tile.las", las.text());
+  const std::string expected = hull({tile}).out;
+  EXPECT_NE(expected.find("EPSG::32633"), std::string::npos);
+  EXPECT_EQ(in_shell("cat '" + tile + "' |", "-").out, expected);
+  EXPECT_EQ(in_shell("gzip '" + tile + "';", "'" + tile + ".gz'").out, expected);
+}
+
 TEST_F(HullCommandTest, ALinkToNothingBecomesTheLinkOfAFile) {
   fs::create_symlink("there.wkt", folder() / "link.wkt");
   succeeded(hull({points_file(), "--out", (folder() / "link.wkt").string()}));

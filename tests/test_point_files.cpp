@@ -93,6 +93,28 @@ TEST_F(PointFilesTest, ColumnsByNameAndByNumber) {
   EXPECT_EQ(read_columns("x,X\n1,2\n", "X,x"), (Points{{2, 1}}));
 }
 
+TEST_F(PointFilesTest, NamesOfColumnsMayBeNumbersOrHaveDelimitersInQuotes) {
+  EXPECT_EQ(read_columns("site,lon,lat,2019,2020\na,7,50,1,2\n", ""), (Points{{7, 50}}));
+  EXPECT_EQ(read_columns("x,y,\"species; group\"\n1,2,oak\n", ""), (Points{{1, 2}}));
+  EXPECT_EQ(read_columns("\"a;b\";1;2\n", "2,3"), (Points{{1, 2}}));
+}
+
+// R's write.table names one column less than there are, decimal commas make two fields of one.
+TEST_F(PointFilesTest, ARowWithMoreFieldsThanNamesIsRefusedUnlessColumnsAreNumbers) {
+  for (const std::string text : {"\"x\" \"y\"\n\"1\" 0.5 0.7\n", "x,y\n1,5,2,5\n"}) {
+    expect_says(refusal("a.csv", text), ", line 2: the line has ");
+    EXPECT_NE(refusal("a.csv", text).find("as in 2,3"), std::string::npos);
+  }
+  EXPECT_EQ(read_columns("\"x\" \"y\"\n\"1\" 0.5 0.7\n", "2,3"), (Points{{0.5, 0.7}}));
+  EXPECT_EQ(read_columns("x,y\n1,2,\n", ""), (Points{{1, 2}})) << "nothing is behind the last comma";
+}
+
+TEST_F(PointFilesTest, APtsFileBeginsWithTheNumberOfPoints) {
+  EXPECT_EQ(read("a.pts", "2\n1 2 0 55 1 1 1\n3 4 0 55 1 1 1\n"), (Points{{1, 2}, {3, 4}}));
+  EXPECT_TRUE(read("a.pts", "0\n").empty());
+  expect_says(refusal("a.pts", "1\n1 2 0\n1\n3 4 0\n"), ", line 3: there is no column 2");
+}
+
 TEST_F(PointFilesTest, CommentsAreBeforeTheFirstRow) {
   EXPECT_EQ(read("a.csv", "# of the north\n  # x,y\n1,2\n"), (Points{{1, 2}}));
   EXPECT_EQ(read_columns("id,x,y\n#1,1,2\n#2,3,4\n", ""), (Points{{1, 2}, {3, 4}})) << "names of points";

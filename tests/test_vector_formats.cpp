@@ -245,6 +245,14 @@ TEST_F(VectorFormatsTest, FilesOfPolygons) {
   EXPECT_EQ(layer_of(path("other.dat")).system.find("EPSG:"), std::string::npos) << "none is known";
 }
 
+TEST_F(VectorFormatsTest, OutliersBesidePolygonsNeedAFormatThatHoldsBoth) {
+  expect_refusal(run({"hull", csv(), "--keep-outliers", "-o", path("out.shp")}), 2, "name it .gpkg");
+  expect_refusal(run({"hull", csv(), "--keep-outliers", "-o", path("o"), "--format", "gdal:ESRI Shapefile"}),
+                 2, "name it .gpkg");
+  EXPECT_EQ(result({"hull", csv(), "--alpha", "0.02", "--keep-outliers", "-o", path("out.gpkg")}), "");
+  EXPECT_EQ(layer_of(path("out.gpkg")).features.size(), 2U);
+}
+
 TEST_F(VectorFormatsTest, NothingOfTheFileBeforeIsLeft) {
   const std::string out = path("out.shp");
   EXPECT_EQ(result({"hull", csv(), "--crs", "EPSG:25832", "-o", out}), "");

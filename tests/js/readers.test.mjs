@@ -32,6 +32,9 @@ test("columns of text", async () => {
   await assert_rows("\ufeffx,y\n1,2\n-3.5,4\n.25,-7\n");
   await assert_rows(gzipSync("1,2\n-3.5,4\n.25,-7\n"));
   await assert_rows("x,y\n", []);
+  await assert_rows("id,x,y\n#1,1,2\n#2,-3.5,4\n#3,.25,-7\n");
+  await assert_rows('x,y,"a; b"\n1,2,c\n-3.5,4,d\n.25,-7,e\n');
+  await assert_rows("site,x,y,2020\na,1,2,0\nb,-3.5,4,0\nc,.25,-7,0\n");
 });
 
 test("GeoJSON", async () => {

@@ -160,12 +160,12 @@ const is_number = (field) => field.trim() !== "" && !Number.isNaN(Number(field))
 
 /** Which columns hold x and y, and whether the first row names them. */
 function columns_of(row) {
-  if (row.some(is_number)) return { x: 0, y: 1, named: false, lonlat: false };
   const names = row.map((name) => name.trim().toLowerCase());
   for (const [x, y] of KNOWN_NAMES) {
     if (!names.includes(x) || !names.includes(y)) continue;
     return { x: names.indexOf(x), y: names.indexOf(y), named: true, lonlat: x.startsWith("l") };
   }
+  if (row.some(is_number)) return { x: 0, y: 1, named: false, lonlat: false };
   if (row.length === 2) return { x: 0, y: 1, named: true, lonlat: false };
   const listed = row.map((name) => `'${name.trim()}'`).join(", ");
   throw new FileError(`none of the columns ${listed} is known to be x or y: name two of them x and y, or lon and lat`);
@@ -181,8 +181,8 @@ function text_points(text) {
     if (end < 0) end = text.length;
     const line = text.slice(begin, text[end - 1] === "\r" ? end - 1 : end);
     begin = end + 1;
-    if (line.trim() === "" || line.startsWith("#")) continue;
-    delimiter ??= [";", "\t", ","].find((each) => line.includes(each)) ?? " ";
+    if (line.trim() === "" || (!columns && line.startsWith("#"))) continue;
+    delimiter ??= [";", "\t", ","].find((each) => line.replace(/"[^"]*"/g, "").includes(each)) ?? " ";
     const fields = fields_of(line, delimiter);
     if (!columns) {
       columns = columns_of(fields);

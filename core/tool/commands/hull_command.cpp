@@ -62,6 +62,11 @@ class HullRun {
       throw ConfigurationError(std::string(option) + " is for what --stream reads; add --stream, or leave " +
                                option + " out");
     }
+    if (command_.keep_outliers && output_.holds_one_type()) {
+      throw ConfigurationError(
+          "--keep-outliers gives points beside polygons, and a Shapefile holds one of the two; name it "
+          ".gpkg");
+    }
     if (output_.has_features()) return;
     if (!command_.by.empty() && output_.text_format() != "svg") {
       throw ConfigurationError("--by gives one feature for each group, which " + output_.text_format() +

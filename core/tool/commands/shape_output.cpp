@@ -80,6 +80,13 @@ void check_is_none_of(const std::string& out, std::span<const std::string> input
   }
 }
 
+bool ShapeOutput::holds_one_type() const {
+  if (!by_gdal_) return false;
+  const std::string ending = ending_of(path_);
+  return by_gdal_->driver.empty() ? ending == ".shp" || ending == ".shz"
+                                  : by_gdal_->driver == "ESRI Shapefile";
+}
+
 bool ShapeOutput::can_tell(const Crs& crs) const {
   return !crs.is_given || crs.epsg > 0 || (by_gdal_ && !crs.wkt.empty());
 }

@@ -32,6 +32,8 @@ class ShapeOutput {
   const std::string& text_format() const { return text_format_; }
   /// Whether it has features with properties.
   bool has_features() const { return text_format_ == "geojson"; }
+  /// Whether all features are of one type, as in a Shapefile.
+  bool holds_one_type() const;
   /// Whether the result says in which coordinate system it is, or there is nothing to say.
   bool can_tell(const Crs& crs) const;
 

@@ -450,7 +450,7 @@ class GdalFormats final : public VectorFormats {
   /// Into a folder beside, as some formats are several files; these are moved when they are whole.
   static void write_file(GDALDatasetH source, const VectorOutput& output, const Crs& crs) {
     const fs::path target = fs::weakly_canonical(output.path);
-    const TemporaryFolder unfinished(target.string() + ".unfinished-" + std::to_string(::getpid()));
+    const TemporaryFolder unfinished(unfinished_path(target).string());
     translate(source, (unfinished.path() / target.filename()).string(), output, crs);
     throw_if_interrupted();
     std::vector<fs::path> parts;

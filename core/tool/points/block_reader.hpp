@@ -43,6 +43,8 @@ class BlockReader {
 
   /// The bytes at hand, as many as have been read already; empty at the end only.
   std::string_view ahead();
+  /// Waits for more bytes than ahead() has; false when nothing more comes or no more fit.
+  bool read_on() { return refill(); }
   /// The next line without its end ("\n" or "\r\n"), until the next call; false at the end. A line that does
   /// not fit into a block is refused.
   bool next_line(std::string_view& line);

@@ -57,11 +57,27 @@ constexpr auto kGeographic = std::to_array<Numbers>(
      {9866, 9866},    {9871, 9871},    {9893, 9893},    {9939, 9939},    {9964, 9964},    {9969, 9969},
      {9974, 9974},    {9989, 9990},    {20033, 20033},  {20040, 20041}});
 
+/// Those of a geographic and a vertical system: likewise, compound_crs.
+constexpr auto kGeographicWithHeights = std::to_array<Numbers>(
+    {{5498, 5500}, {5628, 5628}, {5942, 5942}, {6144, 6144},   {6349, 6349},   {6649, 6649},
+     {6696, 6697}, {6700, 6700}, {6917, 6917}, {7400, 7400},   {7404, 7404},   {7406, 7406},
+     {7408, 7410}, {7414, 7414}, {7423, 7423}, {8349, 8350},   {8360, 8360},   {9286, 9286},
+     {9289, 9290}, {9422, 9430}, {9449, 9450}, {9452, 9452},   {9462, 9464},   {9500, 9544},
+     {9656, 9657}, {9705, 9705}, {9707, 9707}, {9723, 9725},   {9785, 9785},   {9883, 9883},
+     {9907, 9907}, {9924, 9924}, {9948, 9950}, {20001, 20001}, {20037, 20038}, {20043, 20043}});
+
 std::optional<int> number_of(std::string_view text) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || end != text.data() + text.size() || number <= 0) return {};
   return number;
+}
+
+/// Whether `text` is the number 1, be it written 1.0.
+bool is_one(std::string_view text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() && number == 1;
 }
 
 bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
@@ -116,6 +132,7 @@ std::optional<Crs> horizontal_system(std::string_view text) {
   std::vector<Node> open;
   std::optional<Crs> found;
   std::size_t depth_of_found = 0;
+  bool is_in_metres = true;  // a system of the same name in feet is another one
   std::string word;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
@@ -143,7 +160,12 @@ std::optional<Crs> horizontal_system(std::string_view text) {
           node.values.size() >= 2 && upper_case(node.values[0]) == "EPSG") {
         found->epsg = number_of(node.values[1]).value_or(0);
       }
-      if (found && open.size() == depth_of_found && found->epsg == 0) {
+      const bool is_own_unit = open.size() == depth_of_found + 1 && node.keyword == "UNIT";
+      if (found && (is_own_unit || node.keyword == "LENGTHUNIT") && node.values.size() >= 2) {
+        is_in_metres = is_in_metres && is_one(node.values[1]);
+      }
+      if (found && open.size() == depth_of_found && found->epsg == 0 &&
+          (found->is_geographic || is_in_metres)) {
         found->epsg = number_of_known_name(node.values[0]);
       }
       open.pop_back();
@@ -162,13 +184,19 @@ std::string Crs::name() const {
 }
 
 Crs crs_of_epsg(int number) {
-  const bool is_geographic = std::any_of(kGeographic.begin(), kGeographic.end(),
-                                         [&](const Numbers& numbers) { return numbers.has(number); });
+  const auto has = [&](const Numbers& numbers) { return numbers.has(number); };
+  const bool is_geographic = std::any_of(kGeographic.begin(), kGeographic.end(), has) ||
+                             std::any_of(kGeographicWithHeights.begin(), kGeographicWithHeights.end(), has);
   return {.epsg = number, .is_geographic = is_geographic, .is_given = true};
 }
 
 std::optional<Crs> crs_of_name(std::string_view name) {
-  const std::string text = upper_case(std::string(name));
+  std::string text = upper_case(std::string(name));
+  // In "urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::7837" and "EPSG:25832+7837" the system of heights is
+  // second.
+  constexpr std::string_view kCompound = "URN:OGC:DEF:CRS,";
+  if (text.starts_with(kCompound)) text.erase(0, kCompound.size());
+  text.resize(std::min(text.find_first_of(",+"), text.size()));
   if (text.ends_with("CRS84")) return crs_of_epsg(kWgs84);
   const std::size_t authority = text.rfind("EPSG");
   if (authority == std::string::npos) return {};

@@ -199,8 +199,8 @@ class LasReader {
 
   /// Behind the points, in 1.4: as the others, with a length of 64 bits.
   void read_extended_records() {
-    // A pipe need not be read any further; nor has a file to be, for what is known.
-    if (header_.extended_records == 0 || has_wkt_ || !reader_.remaining()) return;
+    // What decodes LAZ has read a pipe to its end.
+    if (header_.extended_records == 0 || has_wkt_ || (header_.is_compressed && !reader_.remaining())) return;
     if (reader_.options().part.number > 0) return;  // the first part says what they say
     if (header_.extended_records_at < position_) return;
     if (!reader_.skip(header_.extended_records_at - position_)) return;
@@ -208,7 +208,8 @@ class LasReader {
       std::array<char, kExtendedRecordHeader> start{};
       if (!reader_.read(start.data(), start.size())) return;
       const std::uint64_t size = whole_at<std::uint64_t>(&start[20]);
-      if (size > *reader_.remaining() || !read_record(start.data(), size)) return;
+      const std::optional<std::uint64_t> left = reader_.remaining();
+      if ((left && size > *left) || !read_record(start.data(), size)) return;
     }
   }
 

@@ -76,15 +76,21 @@ bool looks_like_wkt(std::string_view text) {
   return false;
 }
 
-PointFormat format_of_content(std::string_view start) {
-  if (start.starts_with("\x93NUMPY")) return PointFormat::kNpy;
-  if (start.starts_with("ply\n") || start.starts_with("ply\r")) return PointFormat::kPly;
+/// Behind empty lines and comments.
+std::string_view first_row(std::string_view start) {
   const auto skip_blanks = [&] {
     start.remove_prefix(std::min(start.find_first_not_of(" \t\r\n"), start.size()));
   };
   for (skip_blanks(); start.starts_with('#'); skip_blanks()) {
     start.remove_prefix(std::min(start.find('\n'), start.size()));
   }
+  return start;
+}
+
+PointFormat format_of_content(std::string_view start) {
+  if (start.starts_with("\x93NUMPY")) return PointFormat::kNpy;
+  if (start.starts_with("ply\n") || start.starts_with("ply\r")) return PointFormat::kPly;
+  start = first_row(start);
   if (start.starts_with('{') || start.starts_with('[')) return PointFormat::kGeoJson;
   return looks_like_wkt(start) ? PointFormat::kWkt : PointFormat::kCsv;
 }
@@ -105,7 +111,11 @@ PointFormat find_format(const std::string& path, BlockReader& reader) {
   }
   if (start.starts_with("LASF")) return PointFormat::kLas;
   const PointFormat named = format_of_name(path);
-  return named == PointFormat::kAuto ? format_of_content(start) : named;
+  if (named != PointFormat::kAuto) return named;
+  // A pipe may have given its first comment only.
+  while (first_row(reader.ahead()).find_first_of("\n([{") == std::string_view::npos && reader.read_on()) {
+  }
+  return format_of_content(reader.ahead());
 }
 
 void read_as(PointFormat format, BlockReader& reader, PointFile& file) {

@@ -82,9 +82,15 @@ std::string_view Row::take_field(std::string_view& rest) {
 }
 
 char delimiter_of(std::string_view row) {
+  std::string bare;  // without what is quoted
+  bool is_quoted = false;
+  for (const char c : row) {
+    if (c == '"') is_quoted = !is_quoted;
+    if (!is_quoted) bare += c;
+  }
   // In this order: where semicolons separate, a comma may be a decimal one, and then the number is refused.
   for (const char delimiter : {';', '\t', ','}) {
-    if (row.find(delimiter) != std::string_view::npos) return delimiter;
+    if (bare.find(delimiter) != std::string::npos) return delimiter;
   }
   return kBlank;
 }
@@ -107,6 +113,7 @@ struct Columns {
   std::size_t y = 1;
   std::optional<std::size_t> by;  ///< what points are grouped by
   bool with_header = false;
+  bool is_named = false;       ///< one of them is told by its name
   bool is_geographic = false;  ///< their names say longitude and latitude
   bool is_guess = false;       ///< their names say nothing, and they are the only two
 
@@ -120,13 +127,15 @@ class ColumnChoice {
 
   Columns choose(std::string_view wanted, std::string_view by) const {
     Columns columns;
-    columns.with_header = std::none_of(row_.begin(), row_.end(), is_number);
+    // Years may be names of columns, too.
+    columns.with_header = std::none_of(row_.begin(), row_.end(), is_number) || choose_by_known_names(columns);
+    columns.is_named = columns.is_named && wanted.empty();
     if (!by.empty()) {
       columns.by = place_of(by, columns);
       if (!columns.by) refuse_by(by);
     }
     if (wanted.empty()) {
-      if (columns.with_header) choose_by_known_names(columns);
+      if (columns.with_header && !choose_by_known_names(columns)) choose_the_only_two(columns);
     } else {
       choose_by(wanted, columns);
     }
@@ -177,7 +186,7 @@ class ColumnChoice {
         row_.begin());
   }
 
-  void choose_by_known_names(Columns& columns) const {
+  bool choose_by_known_names(Columns& columns) const {
     const auto find_one_of = [&](const KnownNames::Names& names) {
       std::size_t found = row_.size();
       for (const std::string_view name : names) {
@@ -191,8 +200,13 @@ class ColumnChoice {
       if (x == row_.size() || y == row_.size()) continue;
       columns.x = x;
       columns.y = y;
-      return;
+      columns.is_named = true;
+      return true;
     }
+    return false;
+  }
+
+  void choose_the_only_two(Columns& columns) const {
     columns.is_guess = row_.size() == 2;
     if (row_.size() <= 2) return;
     reader_.fail_here("none of the columns " + column_names() +
@@ -212,7 +226,7 @@ class ColumnChoice {
       if (*number == 0 || *number > kMostColumns) return {};
       return static_cast<std::size_t>(*number - 1);
     }
-    columns.with_header = true;
+    columns.with_header = columns.is_named = true;
     const std::size_t place = find(name);
     if (place < row_.size()) return place;
     reader_.fail_here("there is no column " + in_quotes(name) + "; the columns of this line are " +
@@ -239,6 +253,13 @@ bool is_passed_over(std::string_view line, bool is_before_rows) {
   return first == std::string_view::npos || (is_before_rows && line[first] == '#');
 }
 
+/// How many `fields` there are, without empty ones at the end.
+std::size_t used(const std::vector<std::string_view>& fields) {
+  const auto last =
+      std::find_if(fields.rbegin(), fields.rend(), [](std::string_view field) { return !field.empty(); });
+  return static_cast<std::size_t>(fields.rend() - last);
+}
+
 /// The delimiter in the line sep=; that spreadsheets write before the first row.
 std::optional<char> announced_delimiter(std::string_view line) {
   constexpr std::string_view kStart = "sep=";
@@ -255,6 +276,8 @@ void read_columns(BlockReader& reader, bool only_blanks, PointFile& file) {
   const std::optional<Box>& window = reader.options().window;
   std::size_t needed = 0;  // fields; 0: the first row has not come yet
   std::optional<char> announced;
+  bool is_count_seen = false;  // in the first line of a PTS file, of its points
+  std::size_t names = 0;       // of a first row of names, until the row behind it is compared with them
   const auto start = [&](std::string_view line) {
     if (!only_blanks) row.separate_by(announced.value_or(delimiter_of(line)));
     row.split(line, line.size() + 1);
@@ -289,8 +312,26 @@ void read_columns(BlockReader& reader, bool only_blanks, PointFile& file) {
       }
       if (!announced && !only_blanks) announced = announced_delimiter(line);
       if (announced && announced_delimiter(line)) continue;
+      if (only_blanks && !is_count_seen && parse_count(trimmed(line))) {
+        is_count_seen = true;
+        continue;
+      }
       start(line);
-      if (columns.with_header) continue;
+      if (columns.with_header) {
+        names = row.fields().size();
+        continue;
+      }
+    } else if (names > 0) {
+      row.split(line, line.size() + 1);
+      const std::size_t count = used(row.fields());
+      if (columns.is_named && count > names) {
+        reader.fail_here(
+            "the line has " + std::to_string(count) + " fields, and the first row names " +
+            std::to_string(names) +
+            " columns, so it is not known which is which; name every column, write decimals with a "
+            "point, or choose columns by their number with --columns, as in 2,3");
+      }
+      names = 0;
     }
     row.split(line, needed);
     if (row.fields().size() < needed) fail_short();

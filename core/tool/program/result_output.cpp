@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <stdexcept>
@@ -31,8 +32,9 @@ int open_file(const std::string& file, int flags, const std::string& name) {
   return descriptor;
 }
 
+/// Also by its device's name: a file that it was redirected to gets the result where it stands.
 bool is_standard_output(const std::string& path) {
-  return path.empty() || path == "-";
+  return path.empty() || path == "-" || path == "/dev/stdout";
 }
 
 }  // namespace
@@ -42,14 +44,25 @@ fs::path behind_links(const fs::path& path) {
   std::error_code error;
   fs::path target = path;
   for (int links = 0; links < kMostLinks && fs::is_symlink(target, error); ++links) {
+    // What a link of /proc/self/fd names need not have a path.
+    if (fs::exists(target, error) && !fs::is_regular_file(target, error)) break;
     target = target.parent_path() / fs::read_symlink(target, error);
   }
   return target;
 }
 
+fs::path unfinished_path(const fs::path& target) {
+  constexpr std::size_t kLongestName = 255;  // bytes, on nearly all file systems
+  const std::string ending = ".unfinished-" + std::to_string(::getpid());
+  std::string name = target.filename().string();
+  name.resize(std::min(name.size(), kLongestName - ending.size()));
+  return target.parent_path() / (name + ending);
+}
+
 void check_output_place(const std::string& path) {
   if (is_standard_output(path)) return;
   const fs::path target = behind_links(path);
+  if (::access(target.c_str(), F_OK) != 0 && errno == ENAMETOOLONG) fail(path, errno);
   std::error_code ignored;  // where a folder on the way is closed, access() says so
   if (fs::is_directory(target, ignored)) fail(path, EISDIR);
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
@@ -71,7 +84,7 @@ ResultOutput::ResultOutput(const std::string& path)
     file_ = open_file(target, 0, name_);
     return;
   }
-  const std::string unfinished = target + ".unfinished-" + std::to_string(::getpid());
+  const std::string unfinished = unfinished_path(target).string();
   file_ = open_file(unfinished, O_CREAT | O_TRUNC, name_);
   keep_owner_and_mode(target);
   target_ = target;

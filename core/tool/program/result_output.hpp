@@ -10,6 +10,9 @@ namespace polylidar::tool {
 /// Where `path` leads: a link stays, and the file that it names gets the result, be it there or not.
 std::filesystem::path behind_links(const std::filesystem::path& path);
 
+/// Beside `target`, of what becomes it when it is whole; of this process alone.
+std::filesystem::path unfinished_path(const std::filesystem::path& target);
+
 /// Throws std::runtime_error when no file can be written at `path`, which would otherwise be known only when
 /// the result is there. Nothing to check for standard output: an empty path, or -.
 void check_output_place(const std::string& path);
