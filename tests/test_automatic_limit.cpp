@@ -932,7 +932,8 @@ TEST(AutomaticLimit, MoreDetailBringsNoTriangleBack) {
   }
 }
 
-// A small part does not come back where more detail leaves no large one, and stays where there never was one.
+// A small region does not come back where more detail leaves no large one, and stays where there never was
+// one.
 TEST(AutomaticLimit, MoreDetailDropsTheSmallPartsThatLessDetailDrops) {
   const auto points = testing::joined(testing::lattice(45, 45), testing::lattice(3, 3, 0.3, {60, 0}));
   EXPECT_EQ(checked_hull(points).size(), 1U);

@@ -237,7 +237,7 @@ TEST_P(CertificateByKernel, AnEmptyDiskMakesItsCellUncertain) {
 
 // The directions in which a disk of kNearRadius may be empty are those that have an uncovered sector.
 TEST_P(CertificateByKernel, FindsTheDirectionsOfLargeTriangles) {
-  constexpr int kSectorsOfPart = static_cast<int>(SectorCover<kNearRadius>::kSectors / kPartsOfTurn);
+  constexpr int kSectorsOfFraction = static_cast<int>(SectorCover<kNearRadius>::kSectors / kTurnFractions);
   const PointCertificate& certificate = PointCertificate::instance();
   std::size_t open = 0;
   std::size_t closed = 0;
@@ -251,17 +251,17 @@ TEST_P(CertificateByKernel, FindsTheDirectionsOfLargeTriangles) {
     const Part part{13 + qx, 13 + qy, 0.25};
     const Directions found =
         certificate.open_directions(p, cells.grid.cell(p), cells.grid, cells.occupied, GetParam());
-    for (unsigned k = 0; k < kPartsOfTurn; ++k) {
+    for (unsigned k = 0; k < kTurnFractions; ++k) {
       bool is_open = false;
-      for (int s = 0; s < kSectorsOfPart; ++s) {
-        const double width = kTurn / kPartsOfTurn / kSectorsOfPart;
-        const double angle = kTurn * k / kPartsOfTurn + width * s;
+      for (int s = 0; s < kSectorsOfFraction; ++s) {
+        const double width = kTurn / kTurnFractions / kSectorsOfFraction;
+        const double angle = kTurn * k / kTurnFractions + width * s;
         is_open |= !is_sector_covered(cells, part, angle, width, kNearRadius);
       }
       ASSERT_EQ((found >> k & 1U) != 0, is_open) << k;
       (is_open ? open : closed) += 1;
       for (int i = 0; i <= 8 && !is_open; ++i) {
-        EXPECT_TRUE(holds_at(cells, part, kTurn * (k + i / 8.0) / kPartsOfTurn, kNearRadius));
+        EXPECT_TRUE(holds_at(cells, part, kTurn * (k + i / 8.0) / kTurnFractions, kNearRadius));
       }
     }
   }

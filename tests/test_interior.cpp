@@ -206,7 +206,7 @@ detail::SizeField random_field(const Points& points, Random& random) {
   const double limit = spacing * random.between(1.2, 4.5);
   return {.limit4 = {std::pow(limit, 4)},
           .spike_share = random.below(4) == 0 ? 1 : random.between(0.1, 1),
-          .least_part = random.below(40),
+          .least_region = random.below(40),
           .wide_square = random.below(4) == 0 ? 0x1p-20 : random.between(0, 8),
           .wide_radius = spacing * random.between(0.8, 3.5),
           .block_of_vertex = {}};
@@ -241,7 +241,7 @@ void compare_sizes(BothWays& ways, const Points& points, unsigned threads, Rando
   const IndexedMultiPolygon part = ways.part();
   EXPECT_EQ(part, ways.whole(points, field, fill_single, block_of))
       << "limits " << field.limit4.size() << " limit^4 " << field.limit4[0] << " spikes " << field.spike_share
-      << " parts " << field.least_part << " wide " << field.wide_square << ' ' << field.wide_radius;
+      << " regions " << field.least_region << " wide " << field.wide_square << ' ' << field.wide_radius;
 }
 
 // Of all samplers in turn: `cases` inputs with every `step`-th seed from `first` on.
@@ -273,7 +273,7 @@ TEST(InteriorLeftOut, GivesTheShapesOfSmallInputs) {
   compare_random_inputs(case_count(2500), 10, 2000);
 }
 
-// Here borders of small parts go through certain points, whose triangles are not all known.
+// Here borders of small regions go through certain points, whose triangles are not all known.
 TEST(InteriorLeftOut, GivesTheShapesOfRepeatedPoints) {
   constexpr std::uint64_t kEveryPointFourTimes = 7;
   ASSERT_STREQ(samplers()[kEveryPointFourTimes].name, "every point four times");

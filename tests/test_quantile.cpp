@@ -54,13 +54,13 @@ TEST(Quantile, IsThatOfTheSortedNumbers) {
       std::vector<double> sorted = values;
       std::sort(sorted.begin(), sorted.end());
       for (const double quantile : {0.0, 0.5, 0.6, 0.9, 1.0, random.unit()}) {
-        const auto place = std::min(sorted.size() - 1,
-                                    static_cast<std::size_t>(quantile * static_cast<double>(sorted.size())));
-        EXPECT_EQ(quantile_of(values, quantile), sorted[place]) << quantile;
+        const auto rank = std::min(sorted.size() - 1,
+                                   static_cast<std::size_t>(quantile * static_cast<double>(sorted.size())));
+        EXPECT_EQ(quantile_of(values, quantile), sorted[rank]) << quantile;
       }
-      const std::size_t place = random.below(sorted.size());
-      const std::optional<double> found = Ranking(values).at(place);
-      EXPECT_EQ(found.value_or(sorted[place]), sorted[place]);
+      const std::size_t rank = random.below(sorted.size());
+      const std::optional<double> found = Ranking(values).at(rank);
+      EXPECT_EQ(found.value_or(sorted[rank]), sorted[rank]);
       std::sort(values.begin(), values.end());
       EXPECT_EQ(values, sorted) << "no number was lost";
     }

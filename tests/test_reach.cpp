@@ -110,13 +110,13 @@ TEST(Reach, InAnOpenDirectionHasTheDisksThere) {
   const Grid grid = square_grid();
   Random random(2);
   Bitmap reached;
-  for (unsigned part = 0; part < kPartsOfTurn; ++part) {
-    SCOPED_TRACE(part);
-    mark_from_middle(grid, static_cast<Directions>(1U << part), reached);
+  for (unsigned fraction = 0; fraction < kTurnFractions; ++fraction) {
+    SCOPED_TRACE(fraction);
+    mark_from_middle(grid, static_cast<Directions>(1U << fraction), reached);
     for (int k = 0; k < 10'000; ++k) {
       const Point p = in_middle(random);
       const double along = std::array{0.0, 1.0, random.unit()}[random.below(3)];
-      const Point centre = at(p, kRadius, kFullTurn * (part + along) / kPartsOfTurn);
+      const Point centre = at(p, kRadius, kFullTurn * (fraction + along) / kTurnFractions);
       const Point q = at(centre, kRadius * kInside, kFullTurn * random.unit());
       ASSERT_TRUE(reached.test(grid.cell(q))) << q.x << ", " << q.y;
       const Point near = at(p, 2 * kNearRadius * kInside, kFullTurn * random.unit());

@@ -1,5 +1,5 @@
-// What is left of the triangles within the limit when small parts are dropped and holes are filled, against a
-// walk through all triangles.
+// What is left of the triangles within the limit when small regions are dropped and holes are filled, against
+// a walk through all triangles.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,9 +40,9 @@ struct Filtered {
   RegionFilter filter;
 };
 
-// Triangle -> whether it is within the limit and of a region of at least `least_part` triangles; of all that
-// are within the limit, where no region is so large.
-std::vector<bool> of_large_regions(const Filtered& filtered, std::size_t least_part) {
+// Triangle -> whether it is within the limit and of a region of at least `least_region` triangles; of all
+// that are within the limit, where no region is so large.
+std::vector<bool> of_large_regions(const Filtered& filtered, std::size_t least_region) {
   const Mesh& mesh = filtered.builder.mesh();
   std::vector<bool> is_seen(mesh.triangle_count());
   std::vector<bool> is_large(mesh.triangle_count());
@@ -61,7 +61,7 @@ std::vector<bool> of_large_regions(const Filtered& filtered, std::size_t least_p
         region.push_back(other);
       }
     }
-    if (region.size() < least_part) continue;
+    if (region.size() < least_region) continue;
     any = true;
     for (const Mesh::Index t : region) is_large[t] = true;
   }
@@ -81,11 +81,11 @@ TEST(SizeFilter, DropsRegionsOfFewTriangles) {
       for (Point& p : points) p = {p.x / 30, p.y / 30};
     }
     const double spacing = seed % 5 == 1 ? 1.0 / 30 : 1 / std::sqrt(static_cast<double>(points.size()));
-    const std::size_t least_part = random.below(40);
+    const std::size_t least_region = random.below(40);
     const Filtered filtered(points, {.limit4 = {std::pow(spacing * random.between(0.6, 2.2), 4)},
                                      .spike_share = kNoSpike,
-                                     .least_part = least_part});
-    const std::vector<bool> expected = of_large_regions(filtered, least_part);
+                                     .least_region = least_region});
+    const std::vector<bool> expected = of_large_regions(filtered, least_region);
     for (Mesh::Index t = 0; t < filtered.builder.mesh().triangle_count(); ++t) {
       ASSERT_EQ(filtered.builder.mesh().is_kept(t), expected[t]) << t;
       kept += expected[t] ? 1U : 0U;

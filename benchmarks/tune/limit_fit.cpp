@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint64_t kSampleSeed = 1;
 constexpr double kLargestLoss = 1.5;
 constexpr int kOtherStarts = 2;
-/// The first of limit_knobs(). `part` and `wide` hardly change an error: they are chosen so that chance
+/// The first of limit_knobs(). `region` and `wide` hardly change an error: they are chosen so that chance
 /// leaves no parts and holes, which fit_default counts. `smoothed_from` is a number of blocks that no set of
 /// the fit is near, `step` is of points on outlines, which the fit has none of, and `valley` was chosen with
 /// the other numbers of outliers.cpp.
@@ -217,7 +217,7 @@ const std::vector<LimitKnob>& limit_knobs() {
                                                {"below", nullptr, &C::below, 3, 10},
                                                {"above", nullptr, &C::above, 1, 8},
                                                {"spike", &C::spike, nullptr, 0.8, 3},
-                                               {"part", &C::part, nullptr, 0.25, 8},
+                                               {"region", &C::region, nullptr, 0.25, 8},
                                                {"wide", &C::wide, nullptr, 2, 16},
                                                {"smoothed_from", nullptr, &C::smoothed_from, 4, 64},
                                                {"step", &C::step, nullptr, 0.5, 8},
@@ -270,7 +270,7 @@ std::vector<LimitVariant> limit_ablations() {
                                         {"not shrunk to the median", {.noise = 0, .smoothed_from = kNever}},
                                         {"one block: one limit for all", {.noise = kInfinity}},
                                         {"spikes stay", {.spike = kInfinity}},
-                                        {"small parts stay", {.part = 0}},
+                                        {"small regions stay", {.region = 0}},
                                         {"small holes stay", {.wide = -kInfinity}},
                                         {"outlines not filled", {.step = kInfinity}}};
   return variants;

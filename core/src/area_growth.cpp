@@ -32,10 +32,6 @@ double cell_begin(std::size_t c) {
   return log_cell_begin(kFirstCell + static_cast<std::int64_t>(c));
 }
 
-// The median size is so many units, as fourth powers: if all triangles have one size, as in a lattice, it
-// lies within a cell and not where one ends.
-constexpr double kInCell = 1.1;
-
 }  // namespace
 
 void AreaGrowth::sample(const SizedMesh& sized, std::span<const std::uint32_t> block_of_vertex,
@@ -119,8 +115,8 @@ double AreaGrowth::steadiest_size4(double points, double doubt, const AutomaticC
   }
   const double log_usual = std::log(constants.usual * std::sqrt(std::log(points)));
   const double pull_of_n = constants.pull * std::pow(points, -0.2);
-  constexpr double kFewPoints = 5000;
-  const double still = constants.still * std::min(std::sqrt(kFewPoints / points), 1.0);
+  constexpr double kStillUpTo = 5000;
+  const double still = constants.still * std::min(std::sqrt(kStillUpTo / points), 1.0);
   double least_cost = std::numeric_limits<double>::infinity();
   double steadiest = std::max(log_usual, std::log(kLeast));  // where the areas of all are zero by rounding
   for (std::size_t c = constants.below; c + constants.above < kCells; ++c) {

@@ -28,7 +28,7 @@ struct AutomaticConstants {
   std::size_t below = 3;  ///< the growth is measured over this many cells of the grid below a limit
   std::size_t above = 6;  ///< and this many above it
   double spike = 1.57;    ///< the size from which a triangle may be a spike
-  double part = 2.4;      ///< a part has at least this many times log n triangles
+  double region = 2.4;    ///< a region has at least this many times log n triangles
   double wide = kWide;    ///< a hole has a triangle whose circle would hold log n + wide points or more
   double step = 3;        ///< neighbours on an outline are at most log n + step mean distances apart
 };

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstring>
 #include <limits>
+#include <numbers>
 #include <span>
 #include <utility>
 
@@ -33,8 +34,7 @@ constexpr double kPointsPerBorderSquare = 2.4;
 /// hundred sets. Of n points that is log n + 8 or so: 2 n (1 + x) / e^x triangles have a circle of x points
 /// or more. Returns the square of its radius where a unit square has `density` points.
 double least_wide_square(double points, double wide, double density) {
-  constexpr double kPi = 3.141592653589793;
-  return std::max(std::log(points) + wide, 0.0) / (kPi * density);
+  return std::max(std::log(points) + wide, 0.0) / (std::numbers::pi * density);
 }
 
 /// A window's margin, in spacings. It takes in the circles of wide triangles, if the window's usual size is
@@ -299,7 +299,7 @@ void AutomaticLimit::set_field(double points, double detail, const AutomaticCons
   range_.reset();
   field_.limit4 = sizes_.usual4();
   field_.spike_share = 1;
-  field_.least_part = 0;
+  field_.least_region = 0;
   field_.detail4 = std::max(1.0, fourth_power(detail));
   field_.wide_square = 0;
   field_.wide_radius = 0;
@@ -307,7 +307,7 @@ void AutomaticLimit::set_field(double points, double detail, const AutomaticCons
   if (areas_.is_empty()) return;  // no triangle
   const double limit4 = steadiest4_ = std::min(areas_.steadiest_size4(points, doubt_, constants), most4);
   field_.spike_share = fourth_power(constants.spike) / limit4;
-  field_.least_part = static_cast<std::size_t>(constants.part * std::log(points));
+  field_.least_region = static_cast<std::size_t>(constants.region * std::log(points));
   field_.wide_square = least_wide_square(points, constants.wide, kPointsPerBorderSquare) / (detail * detail);
   if (found_ != SizesBy::kBlocks) field_.wide_radius = wide_radius_ / detail;
   for (double& limit : field_.limit4) limit *= limit4 / fourth_power(detail);

@@ -47,8 +47,8 @@ enum class SizesBy : std::uint8_t {
 /// **Outlines.** If all points lie on curves, no triangle between these has a usual size
 /// (squared_outline_step). OutlineFill then finds what the curves enclose.
 ///
-/// **What chance leaves.** Spikes and small parts are dropped, and holes without a wide triangle are filled
-/// (SizeField). Parts and circles are compared with log n, because the largest void and the largest cluster
+/// **What chance leaves.** Spikes and small regions are dropped, and holes without a wide triangle are filled
+/// (SizeField). Regions and circles are compared with log n, because the largest void and the largest cluster
 /// that chance makes grow with it.
 ///
 /// Apart from rounding, the field does not depend on the unit of the points or on their position, nor on
@@ -88,7 +88,7 @@ class AutomaticLimit {
   /// What was chosen; valid until the next call.
   const SizeField& field() const { return field_; }
   /// The least, the median and the largest size that a triangle may have, in the unit of the builder's
-  /// vertices. None if no triangle has a size above zero; all are kept then.
+  /// vertices. None if there is no triangle.
   const std::optional<ChosenSizes>& range() const { return range_; }
 
  private:

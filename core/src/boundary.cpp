@@ -74,10 +74,11 @@ void BoundaryTracer::trace(Mesh& mesh, const Point* vertices, std::size_t vertex
   ring_vertices_.clear();
   rings_.clear();
   walks_.clear();
+  joined_walks_.reset(0);
   region_count_ = 0;
-  std::uint32_t* place = place_in_walk_.reserve(vertex_count);
+  std::uint32_t* index = index_in_walk_.reserve(vertex_count);
   for (const Index e : boundary) {
-    place[mesh.origin(e)] = kNone;
+    index[mesh.origin(e)] = kNone;
     mesh.taken(Mesh::triangle_of(e)) = 0;
     mesh.walk(Mesh::triangle_of(e)) = kNone;
   }
@@ -96,9 +97,10 @@ void BoundaryTracer::trace(Mesh& mesh, const Point* vertices, std::size_t vertex
 /// the walk runs round both. Split at such vertices, each becomes a simple ring of its own, as the OGC's
 /// definition of a polygon wants it.
 void BoundaryTracer::trace_walk(Mesh& mesh, const Point* vertices, Index first) {
-  std::uint32_t* place = place_in_walk_.data();
+  std::uint32_t* index = index_in_walk_.data();
   const auto number = static_cast<std::uint32_t>(walks_.size());
-  walks_.push_back({first, number, kNone});
+  walks_.push_back({first, kNone});
+  joined_walks_.add();
   bool has_shell = false;
   open_walk_.clear();
   Index e = first;
@@ -108,12 +110,12 @@ void BoundaryTracer::trace_walk(Mesh& mesh, const Point* vertices, Index first) 
     if (mesh.walk(triangle) == kNone) {
       mesh.walk(triangle) = number;
     } else if (mesh.walk(triangle) != number) {  // two walks along one triangle run round one region
-      walks_[root(number)].parent = root(mesh.walk(triangle));
+      joined_walks_.join(number, mesh.walk(triangle));
     }
 
     const std::uint32_t vertex = mesh.origin(e);
-    if (place[vertex] != kNone) has_shell |= add_ring(vertices, place[vertex]);
-    place[vertex] = static_cast<std::uint32_t>(open_walk_.size());
+    if (index[vertex] != kNone) has_shell |= add_ring(vertices, index[vertex]);
+    index[vertex] = static_cast<std::uint32_t>(open_walk_.size());
     open_walk_.push_back(vertex);
     e = next_boundary(mesh, e);
   } while (e != first);
@@ -125,7 +127,7 @@ void BoundaryTracer::trace_walk(Mesh& mesh, const Point* vertices, Index first) 
 /// shell.
 bool BoundaryTracer::add_ring(const Point* vertices, std::size_t begin) {
   const std::span<const std::uint32_t> ring = std::span(open_walk_).subspan(begin);
-  for (const std::uint32_t vertex : ring) place_in_walk_.data()[vertex] = kNone;
+  for (const std::uint32_t vertex : ring) index_in_walk_.data()[vertex] = kNone;
   const auto start = static_cast<std::uint32_t>(ring_vertices_.size());
   ring_vertices_.insert(ring_vertices_.end(), ring.begin(), ring.end());
   const bool is_shell = is_counter_clockwise(vertices, ring);
@@ -145,21 +147,16 @@ void BoundaryTracer::join_holes(const Mesh& mesh, const Point* vertices) {
     if (walks_[w].region != kNone) continue;
     const Index triangle =
         next_boundary_to_the_left(mesh, vertices, leave_least_vertex(mesh, vertices, walks_[w].first));
-    walks_[root(w)].parent = root(mesh.walk(triangle));
+    joined_walks_.join(w, mesh.walk(triangle));
   }
-  // The region's number goes from the walk with the shell to the root of its walks.
+  // The region's number goes from the walk with the shell to the one that stands for all of its walks.
   for (std::uint32_t w = 0; w < walks_.size(); ++w) {
-    if (walks_[w].region != kNone) walks_[root(w)].region = walks_[w].region;
+    if (walks_[w].region != kNone) walks_[joined_walks_.standing_for(w)].region = walks_[w].region;
   }
-}
-
-std::uint32_t BoundaryTracer::root(std::uint32_t walk) {
-  while (walks_[walk].parent != walk) walk = walks_[walk].parent = walks_[walks_[walk].parent].parent;
-  return walk;
 }
 
 std::uint32_t BoundaryTracer::region_of(const TracedRing& ring) {
-  return region_count_ == 1 ? 0 : walks_[root(ring.walk)].region;
+  return region_count_ == 1 ? 0 : walks_[joined_walks_.standing_for(ring.walk)].region;
 }
 
 /// Writes the rings polygon by polygon, in the order that IndexedMultiPolygon states: it depends on which
@@ -180,17 +177,17 @@ void BoundaryTracer::emit(const std::uint32_t* caller_index, IndexedMultiPolygon
   shape.clear();
   shape.polygon_ends.resize(region_count_);
   for (const TracedRing& ring : rings_) ++shape.polygon_ends[region_of(ring)];
-  next_place_.clear();
+  next_index_.clear();
   std::uint32_t total = 0;
   for (std::uint32_t& end : shape.polygon_ends) {
-    next_place_.push_back(total + 1);
+    next_index_.push_back(total + 1);
     total = end += total;
   }
   written_order_.resize(rings_.size());
   for (const auto& [edge, r] : ring_order_) {
     const std::uint32_t polygon = region_of(rings_[r]);
-    const std::uint32_t shell_place = polygon == 0 ? 0 : shape.polygon_ends[polygon - 1];
-    written_order_[rings_[r].is_shell ? shell_place : next_place_[polygon]++] = r;
+    const std::uint32_t shell_index = polygon == 0 ? 0 : shape.polygon_ends[polygon - 1];
+    written_order_[rings_[r].is_shell ? shell_index : next_index_[polygon]++] = r;
   }
   shape.vertices.reserve(ring_vertices_.size());
   for (const std::uint32_t r : written_order_) {

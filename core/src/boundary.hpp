@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "half_edge.hpp"
+#include "joined_things.hpp"
 #include "polylidar/concave_hull.hpp"
 
 namespace polylidar::detail {
@@ -30,7 +31,6 @@ class BoundaryTracer {
   /// A closed walk along the boundary of one region. It is split into rings wherever it returns to a vertex.
   struct Walk {
     Index first;           ///< one of its half-edges
-    std::uint32_t parent;  ///< a walk of the same region, or itself
     std::uint32_t region;  ///< kNone unless it holds the region's shell
   };
   struct TracedRing {
@@ -43,7 +43,6 @@ class BoundaryTracer {
   void trace_walk(Mesh& mesh, const Point* vertices, Index first);
   bool add_ring(const Point* vertices, std::size_t begin);
   void join_holes(const Mesh& mesh, const Point* vertices);
-  std::uint32_t root(std::uint32_t walk);
   std::uint32_t region_of(const TracedRing& ring);
   void emit(const std::uint32_t* caller_index, IndexedMultiPolygon& shape);
   void number_polygons();
@@ -51,15 +50,16 @@ class BoundaryTracer {
   std::vector<std::uint32_t>
       open_walk_;  ///< vertices of the walk being traced, without the rings already split off
   Scratch<std::uint32_t>
-      place_in_walk_;  ///< boundary vertex -> its place in open_walk_, kNone if it is not there
+      index_in_walk_;  ///< boundary vertex -> its index in open_walk_, kNone if it is not there
   std::vector<std::uint32_t>
       ring_vertices_;  ///< of all rings, in the order of `rings_`; at last the caller's
   std::vector<TracedRing> rings_;
   std::vector<Walk> walks_;
+  JoinedThings joined_walks_;                                        ///< of `walks_`: those round one region
   std::vector<std::pair<std::uint64_t, std::uint32_t>> ring_order_;  ///< first edge, ring; by first edge
   std::vector<std::uint32_t> polygon_of_region_;                     ///< when the regions are numbered anew
   std::vector<std::uint32_t> written_order_;                         ///< rings by polygon, the shell first
-  std::vector<std::uint32_t> next_place_;  ///< polygon -> where in written_order_ its next hole goes
+  std::vector<std::uint32_t> next_index_;  ///< polygon -> where in written_order_ its next hole goes
   std::uint32_t region_count_ = 0;
 };
 

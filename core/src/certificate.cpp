@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -217,10 +218,10 @@ template <std::size_t... kRow>
   for (std::size_t s = 0; s < Cover::kSectors; ++s) {
     covered[s] = covering(rows, cells, s, std::make_index_sequence<Cover::kRows>());
   }
-  constexpr std::size_t kSectorsOfPart = Cover::kSectors / kPartsOfTurn;
+  constexpr std::size_t kSectorsOfFraction = Cover::kSectors / kTurnFractions;
   unsigned open = 0;
   for (std::size_t s = 0; s < Cover::kSectors; ++s) {
-    open |= (covered[s] == 0 ? 1U : 0U) << (s / kSectorsOfPart);
+    open |= (covered[s] == 0 ? 1U : 0U) << (s / kSectorsOfFraction);
   }
   return static_cast<Directions>(open);
 }
@@ -394,7 +395,7 @@ SectorCover<kDisk>::SectorCover() {
   using Sectors = std::uint64_t;  // bit s: sector s, or direction s, where it begins
   std::array<Vector, kSectors> direction;
   for (std::size_t s = 0; s < kSectors; ++s) {
-    const double angle = static_cast<double>(s) * (6.283185307179586 / kSectors);
+    const double angle = static_cast<double>(s) * (2 * std::numbers::pi / kSectors);
     direction[s] = {std::cos(angle), std::sin(angle)};
   }
   // Corners of the boxes of all d lie on a lattice of quarters. (kSlack, which moves them, changes (1) by

@@ -82,9 +82,9 @@ class SectorCover {
   std::array<std::array<Row, kRows>, kQuarters * kQuarters> covering_{};
 };
 
-/// A set of directions: bit k stands for those from k to k + 1 parts of a turn.
+/// A set of directions: bit k stands for those from k to k + 1 of kTurnFractions equal fractions of a turn.
 using Directions = std::uint16_t;
-inline constexpr unsigned kPartsOfTurn = 16;
+inline constexpr unsigned kTurnFractions = 16;
 
 /// The test for single points.
 class PointCertificate {

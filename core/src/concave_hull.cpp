@@ -246,7 +246,7 @@ IndexedMultiPolygon concave_hull(std::span<const Point> points, const Options& o
 std::vector<LabelledHull> concave_hulls(std::span<const Point> points, std::span<const std::int64_t> labels,
                                         const Options& options, const Wanted& wanted) {
   if (labels.size() != points.size()) throw std::invalid_argument("there must be one label a point");
-  if (points.size() > kMaxPoints) throw std::invalid_argument("more than 2^28 points: split the input");
+  detail::check_point_count(points.size());
   checked_limits(options);
   if (!points.empty()) {  // by the caller's indices
     detail::ThreadPool this_thread;

@@ -178,10 +178,14 @@ Magnitudes measure_all(std::span<const Point> points, ThreadPool& pool, Kernel k
   const auto measure_part = [kernel](std::span<const Point> part) { return measure(part, kernel); };
   for (const Magnitudes& part : of_each_chunk(points, pool, measure_part)) magnitudes.add(part);
   if (!std::isnan(magnitudes.poison)) return magnitudes;
-  throw std::invalid_argument("point " + std::to_string(find_not_finite(points)) + " is not finite");
+  throw point_not_finite(find_not_finite(points));
 }
 
 }  // namespace
+
+std::invalid_argument point_not_finite(std::uint64_t number) {
+  return std::invalid_argument("point " + std::to_string(number) + " is not finite");
+}
 
 void RangeOfBlocks::add(std::span<const Point> block) {
   const Magnitudes magnitudes = measure(block, best_kernel());

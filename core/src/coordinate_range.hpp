@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <stdexcept>
 
 #include "kernels.hpp"
 #include "polylidar/geometry.hpp"
@@ -21,6 +22,9 @@ struct CoordinateRange {
   /// coordinates are scaled.
   double unit = 0;
 };
+
+/// What to throw for the point of this number, from 0.
+std::invalid_argument point_not_finite(std::uint64_t number);
 
 /// Needs at least one point. Throws std::invalid_argument if a coordinate is not finite or coordinates span
 /// more than the supported range (see Extractor).

@@ -25,10 +25,12 @@ Axis axis_of_level(unsigned level) {
 
 }  // namespace
 
+void check_point_count(std::size_t points) {
+  if (points > kMaxPoints) throw std::invalid_argument("more than 2^28 points: split the input");
+}
+
 void DelaunayBuilder::build(std::span<const Point> points, ThreadPool& pool) {
-  if (points.size() > kMaxPoints) {
-    throw std::invalid_argument("more than 2^28 points: split the input");
-  }
+  check_point_count(points.size());
   if (!points.empty()) return build(points, measure_coordinates(points, pool), pool);
   mesh_.reset(0);
   vertex_count_ = 0;
@@ -44,7 +46,7 @@ void DelaunayBuilder::build(std::span<const Point> points, const CoordinateRange
   if (pool.threads() == 1) {
     build_range(0, static_cast<Index>(points.size()));
   } else {
-    build_parts(pool);
+    build_subtrees(pool);
   }
 }
 
@@ -83,54 +85,57 @@ void DelaunayBuilder::sort_along_curve(std::span<const Point> points, Coordinate
 
 /// Triangulates all points on several threads.
 ///
-/// The lines that build_range follows cut the points into parts whose triangulations touch none of each
-/// other's memory. Whoever finishes the second of two neighbouring parts merges them, as build_range would.
-void DelaunayBuilder::build_parts(ThreadPool& pool) {
-  constexpr std::size_t kPartsPerThread = 8;
-  constexpr Index kSmallestPart = 128;
+/// The lines that build_range follows cut the points into subtrees whose triangulations touch none of each
+/// other's memory. Whoever finishes the second of two neighbouring subtrees merges them, as build_range
+/// would.
+void DelaunayBuilder::build_subtrees(ThreadPool& pool) {
+  constexpr std::size_t kSubtreesPerThread = 8;
+  constexpr Index kSmallestSubtree = 128;
   const auto count = static_cast<Index>(vertex_count_);
-  std::deque<Part> parts;
-  parts.emplace_back(0, count, nullptr);
-  const std::size_t wanted = kPartsPerThread * std::max<std::size_t>(2, pool.threads());
-  cut(parts.front(), std::max(kSmallestPart, static_cast<Index>(count / wanted)), parts);
+  std::deque<Subtree> subtrees;
+  subtrees.emplace_back(0, count, nullptr);
+  const std::size_t wanted = kSubtreesPerThread * std::max<std::size_t>(2, pool.threads());
+  cut(subtrees.front(), std::max(kSmallestSubtree, static_cast<Index>(count / wanted)), subtrees);
 
-  std::vector<Part*> uncut;
-  for (Part& part : parts) {
-    if (part.first == nullptr) uncut.push_back(&part);
+  std::vector<Subtree*> uncut;
+  for (Subtree& subtree : subtrees) {
+    if (subtree.first == nullptr) uncut.push_back(&subtree);
   }
-  std::sort(uncut.begin(), uncut.end(), [](const Part* a, const Part* b) { return a->begin < b->begin; });
+  std::sort(uncut.begin(), uncut.end(),
+            [](const Subtree* a, const Subtree* b) { return a->begin < b->begin; });
   pool.for_each(uncut.size(), [&](std::size_t i) {
     uncut[i]->hull = build_range(uncut[i]->begin, uncut[i]->end);
     finish(*uncut[i]);
   });
 }
 
-/// Cuts `part` and what comes out of it, appended to `parts`, until none has more than `largest` points.
-void DelaunayBuilder::cut(Part& part, Index largest, std::deque<Part>& parts) {
-  if (part.end - part.begin <= largest) return;
+/// Cuts `subtree` and what comes out of it, appended to `subtrees`, until none has more than `largest`
+/// points.
+void DelaunayBuilder::cut(Subtree& subtree, Index largest, std::deque<Subtree>& subtrees) {
+  if (subtree.end - subtree.begin <= largest) return;
   std::uint32_t* keys = keys_.data();
-  if (keys[part.begin] == keys[part.end - 1]) {
-    const Box box = bounding_box({points_.data() + part.begin, points_.data() + part.end});
+  if (keys[subtree.begin] == keys[subtree.end - 1]) {
+    const Box box = bounding_box({points_.data() + subtree.begin, points_.data() + subtree.end});
     if (box.min == box.max) return;
-    refine_curve(part.begin, part.end, box);
+    refine_curve(subtree.begin, subtree.end, box);
   }
   // The line is where the highest bit in which keys differ changes.
-  const std::uint32_t differing = keys[part.begin] ^ keys[part.end - 1];
+  const std::uint32_t differing = keys[subtree.begin] ^ keys[subtree.end - 1];
   const std::uint32_t bit = std::bit_floor(differing);
   const auto middle =
-      static_cast<Index>(std::partition_point(keys + part.begin, keys + part.end,
+      static_cast<Index>(std::partition_point(keys + subtree.begin, keys + subtree.end,
                                               [bit](std::uint32_t key) { return (key & bit) == 0; }) -
                          keys);
-  part.axis = axis_of_level(static_cast<unsigned>(std::bit_width(differing)));
-  part.first = &parts.emplace_back(part.begin, middle, &part);
-  part.second = &parts.emplace_back(middle, part.end, &part);
-  cut(*part.first, largest, parts);
-  cut(*part.second, largest, parts);
+  subtree.axis = axis_of_level(static_cast<unsigned>(std::bit_width(differing)));
+  subtree.first = &subtrees.emplace_back(subtree.begin, middle, &subtree);
+  subtree.second = &subtrees.emplace_back(middle, subtree.end, &subtree);
+  cut(*subtree.first, largest, subtrees);
+  cut(*subtree.second, largest, subtrees);
 }
 
-/// Merges upwards from a part that has its hull, as far as the neighbours have theirs.
-void DelaunayBuilder::finish(Part& part) {
-  for (Part* whole = part.parent; whole != nullptr; whole = whole->parent) {
+/// Merges upwards from a subtree that has its hull, as far as the neighbours have theirs.
+void DelaunayBuilder::finish(Subtree& subtree) {
+  for (Subtree* whole = subtree.parent; whole != nullptr; whole = whole->parent) {
     if (whole->unfinished.fetch_sub(1, std::memory_order_acq_rel) != 1) return;
     whole->hull = merge(whole->first->hull, whole->second->hull, whole->second->begin, whole->axis);
   }
@@ -140,11 +145,11 @@ void DelaunayBuilder::finish(Part& part) {
 ///
 /// Where two neighbours' keys first differ, counted from the highest bit, is where a vertical or a horizontal
 /// line separates them, and the higher that bit, the later the two sides are merged. Going through the points
-/// once, a stack holds the parts that wait for what comes after them.
+/// once, a stack holds the subtrees that wait for what comes after them.
 Hull DelaunayBuilder::build_range(Index begin, Index end) {
   struct Waiting {
     Hull hull;
-    unsigned level;  ///< bit that separates it from the next part, counted from 1; kLast for the last
+    unsigned level;  ///< bit that separates it from the next subtree, counted from 1; kLast for the last
     Index end;       ///< one past its last point
   };
   constexpr unsigned kLast = 33;
@@ -158,26 +163,26 @@ Hull DelaunayBuilder::build_range(Index begin, Index end) {
   unsigned level = kLast;  // before `first`
   for (Index first = begin; first < end;) {
     Index next = first + 1;
-    Waiting part{Hull::of_point(first), level_before(next), next};
-    if (part.level == 0) {
-      while ((part.level = level_before(++next)) == 0) continue;
-      part = {build_cell(first, next), part.level, next};
+    Waiting subtree{Hull::of_point(first), level_before(next), next};
+    if (subtree.level == 0) {
+      while ((subtree.level = level_before(++next)) == 0) continue;
+      subtree = {build_cell(first, next), subtree.level, next};
     } else if (end - first >= 3) {
       const unsigned inner = level_before(first + 2);
       const unsigned after = level_before(first + 3);
-      if (inner != 0 && std::max(part.level, inner) < std::min(level, after) &&
-          build_triangle(first, part.hull)) {
+      if (inner != 0 && std::max(subtree.level, inner) < std::min(level, after) &&
+          build_triangle(first, subtree.hull)) {
         next = first + 3;
-        part.level = after;
-        part.end = next;
+        subtree.level = after;
+        subtree.end = next;
       }
     }
-    level = part.level;
-    while (count > 0 && waiting[count - 1].level < part.level) {
+    level = subtree.level;
+    while (count > 0 && waiting[count - 1].level < subtree.level) {
       const Waiting& before = waiting[--count];
-      part.hull = merge(before.hull, part.hull, before.end, axis_of_level(before.level));
+      subtree.hull = merge(before.hull, subtree.hull, before.end, axis_of_level(before.level));
     }
-    waiting[count++] = part;
+    waiting[count++] = subtree;
     first = next;
   }
   return waiting[0].hull;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <span>
@@ -12,6 +13,9 @@
 #include "thread_pool.hpp"
 
 namespace polylidar::detail {
+
+/// Throws std::invalid_argument if there are more than kMaxPoints points.
+void check_point_count(std::size_t points);
 
 /// Builds the mesh of one point set after another, keeping its memory.
 ///
@@ -44,25 +48,25 @@ class DelaunayBuilder {
  private:
   using Index = Mesh::Index;
 
-  /// A subtree of the curve: a range of points that is triangulated by itself, or the two parts into which a
-  /// line cuts it.
-  struct Part {
-    Part(Index part_begin, Index part_end, Part* part_parent)
-        : begin(part_begin), end(part_end), parent(part_parent) {}
+  /// A subtree of the curve: a range of points that is triangulated by itself, or the two subtrees into which
+  /// a line cuts it.
+  struct Subtree {
+    Subtree(Index points_begin, Index points_end, Subtree* whole)
+        : begin(points_begin), end(points_end), parent(whole) {}
     Index begin;
     Index end;
-    Part* parent;
-    Part* first = nullptr;  ///< null: not cut
-    Part* second = nullptr;
+    Subtree* parent;
+    Subtree* first = nullptr;  ///< null: not cut
+    Subtree* second = nullptr;
     Axis axis = Axis::kX;
     std::atomic<int> unfinished = 2;  ///< of the two
     Hull hull;
   };
 
   void sort_along_curve(std::span<const Point> points, CoordinateRange range, ThreadPool& pool);
-  void build_parts(ThreadPool& pool);
-  void cut(Part& part, Index largest, std::deque<Part>& parts);
-  void finish(Part& part);
+  void build_subtrees(ThreadPool& pool);
+  void cut(Subtree& subtree, Index largest, std::deque<Subtree>& subtrees);
+  void finish(Subtree& subtree);
   void refine_curve(Index begin, Index end, const Box& box);
   void sort_small_cell(Index begin, Index end);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 #include "near_points.hpp"
 #include "selected.hpp"
@@ -175,7 +176,7 @@ double InteriorPart::cells_in_disk(std::span<const Point> points) const {
   constexpr unsigned kSide = 2 * kHalf + 1;
   constexpr unsigned kRowsAtOnce = 3;  // so many fill a word
   static_assert(std::size_t{kRowsAtOnce} * kSide <= Grid::kWordBits && kSide % kRowsAtOnce == 0);
-  constexpr double kDiskOfSquare = 3.141592653589793 * kRadius * kRadius / kSide / kSide;
+  constexpr double kDiskOfSquare = std::numbers::pi * kRadius * kRadius / kSide / kSide;
   const Grid::Cell row_bits = grid_.row_words() * Grid::kWordBits;
   int count = 0;
   for (std::size_t k = 0; k < kLookedAt; ++k) {

@@ -20,4 +20,8 @@ constexpr double log_cell_begin(std::int64_t cell) {
   return std::bit_cast<double>(cell << kBitsBelowCells);
 }
 
+// The median of what is counted is so many units, as fourth powers: if all have one size, as in a lattice, it
+// lies within a cell and not where one ends.
+constexpr double kInCell = 1.1;
+
 }  // namespace polylidar::detail

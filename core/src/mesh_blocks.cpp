@@ -88,7 +88,7 @@ double MeshBlocks::measure_block(const SizedMesh& sized, std::span<const std::ui
   for (;; step = 1) {
     double* next_size = sizes.data();
     Mesh::Index* next = crossing.data();
-    for_some_triangles(mesh, begin, end, step, [&](Mesh::Index t) {
+    for_every_nth_pair(mesh, begin, end, step, [&](Mesh::Index t) {
       *next_size++ = sized.size4_of(t);
       const Mesh::Index* const twins = mesh.twins(t);
       for (Mesh::Index k = 0; k < 3; ++k) {
@@ -108,12 +108,12 @@ double MeshBlocks::measure_block(const SizedMesh& sized, std::span<const std::ui
     const std::uint32_t neighbour = block_of_vertex[Mesh::triangle_of(twin) / 2];
     const double squared = squared_length(vertices[mesh.origin(crossing[c])] - vertices[mesh.origin(twin)]);
     const double length4 = squared * squared;
-    std::uint32_t& place = scratch.border_with[neighbour];
-    if (place < first_border || place >= borders.size() || borders[place].neighbour != neighbour) {
-      place = static_cast<std::uint32_t>(borders.size());
+    std::uint32_t& border = scratch.border_with[neighbour];
+    if (border < first_border || border >= borders.size() || borders[border].neighbour != neighbour) {
+      border = static_cast<std::uint32_t>(borders.size());
       borders.push_back({block, neighbour, length4});
     }
-    borders[place].length4 = std::min(borders[place].length4, length4);
+    borders[border].length4 = std::min(borders[border].length4, length4);
   }
   return count == 0 ? UsualSizes::kUnknown : quantile_of(std::span(sizes).first(count), quantile);
 }

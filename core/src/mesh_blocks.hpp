@@ -28,7 +28,7 @@ struct SizedMesh {
 /// Calls visit(t) for the finite triangles in every `step`-th pair of the records from `begin` to `end`,
 /// which are even. Whole pairs, since the first of a pair is smaller than the second on average.
 template <class Visit>
-void for_some_triangles(const Mesh& mesh, Mesh::Index begin, Mesh::Index end, Mesh::Index step,
+void for_every_nth_pair(const Mesh& mesh, Mesh::Index begin, Mesh::Index end, Mesh::Index step,
                         const Visit& visit) {
   for (Mesh::Index first = begin; first < end; first += 2 * step) {
     if (!mesh.is_ghost(first)) visit(first);
@@ -68,7 +68,7 @@ class MeshBlocks {
   struct BlockScratch {
     std::vector<double> sizes;          ///< of its triangles, and room for more
     std::vector<Mesh::Index> crossing;  ///< half-edges with twins in other blocks
-    /// Block -> its place among the borders, where it is a neighbour of the block that is looked at.
+    /// Block -> its index among the borders, where it is a neighbour of the block that is looked at.
     std::vector<std::uint32_t> border_with;
   };
 

@@ -22,7 +22,7 @@ double NumberCounts::middle_of(std::size_t own) {
 
 double NumberCounts::median() const {
   std::size_t own = 0;
-  for (std::size_t below = counts_[0]; below <= place_of(0.5, total_);) below += counts_[++own];
+  for (std::size_t below = counts_[0]; below <= rank_of(0.5, total_);) below += counts_[++own];
   return middle_of(own);
 }
 
@@ -32,9 +32,9 @@ double NumberCounts::robust_deviation_of_logarithms(double middle) {
     if (counts_[own] != 0) distances_.emplace_back(std::abs(std::log(middle_of(own) / middle)), counts_[own]);
   }
   std::sort(distances_.begin(), distances_.end());
-  const std::size_t place = place_of(RobustDeviation::kQuantile, total_);
+  const std::size_t rank = rank_of(RobustDeviation::kQuantile, total_);
   auto at = distances_.begin();
-  for (std::size_t below = at->second; below <= place;) below += (++at)->second;
+  for (std::size_t below = at->second; below <= rank;) below += (++at)->second;
   return at->first / RobustDeviation::kOfNormal;
 }
 

@@ -191,7 +191,7 @@ class FewCells {
       w += group == 0 ? Grid::kWordBits - 1 - w % Grid::kWordBits
                       : static_cast<std::size_t>(std::countr_zero(group));
       if (group == 0 || w >= end) continue;
-      for (Bitmap::Word left = words_[place_of(w)]; left != 0; left &= left - 1) {
+      for (Bitmap::Word left = words_[index_of(w)]; left != 0; left &= left - 1) {
         visit(w * Grid::kWordBits + static_cast<std::size_t>(std::countr_zero(left)));
       }
     }
@@ -200,13 +200,13 @@ class FewCells {
   /// Whether the word of the cell has any; quick, and mostly true where test() is.
   bool may_have(Grid::Cell cell) const { return has_any_.test(cell / Grid::kWordBits); }
   /// Of a cell that it may have.
-  void prefetch(Grid::Cell cell) const { __builtin_prefetch(&words_[place_of(cell / Grid::kWordBits)]); }
+  void prefetch(Grid::Cell cell) const { __builtin_prefetch(&words_[index_of(cell / Grid::kWordBits)]); }
   bool test(Grid::Cell cell) const {
-    return ((words_[place_of(cell / Grid::kWordBits)] >> (cell % Grid::kWordBits)) & 1U) != 0;
+    return ((words_[index_of(cell / Grid::kWordBits)] >> (cell % Grid::kWordBits)) & 1U) != 0;
   }
 
  private:
-  std::size_t place_of(std::size_t word) const {
+  std::size_t index_of(std::size_t word) const {
     const Bitmap::Word below = (Bitmap::Word{1} << (word % Grid::kWordBits)) - 1;
     const std::size_t group = word / Grid::kWordBits;
     return before_group_[group] + static_cast<std::size_t>(std::popcount(has_any_.words()[group] & below));

@@ -155,7 +155,6 @@ std::optional<double> spacing4_of_outliers(const SizedMesh& sized, const Spacing
     if (is_known(spacings.around[i])) some.push_back(spacings.around[i].spacing4);
   }
   if (some.empty()) return {};
-  constexpr double kInCell = 1.1;  // in a lattice all have one spacing, which then lies within a cell
   const double unit4 = quantile_of(some, 0.5) / kInCell;
   const double per_unit4 = 1 / unit4;
   Histogram histogram;

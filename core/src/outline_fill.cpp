@@ -1,7 +1,6 @@
 #include "outline_fill.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "filter_rules.hpp"
 #include "kept_words.hpp"
@@ -22,25 +21,12 @@ void for_each_with(const std::vector<Touch>& touches, Mesh::Index Touch::*member
 
 }  // namespace
 
-void OutlineFill::JoinedThings::reset(std::size_t count) {
-  first_.resize(count);
-  std::iota(first_.begin(), first_.end(), Index{0});
-}
-
-Mesh::Index OutlineFill::JoinedThings::standing_for(Index thing) {
-  while (first_[thing] != thing) {
-    first_[thing] = first_[first_[thing]];
-    thing = first_[thing];
-  }
-  return thing;
-}
-
 bool OutlineFill::run(const Mesh& mesh, const Point* vertices, const OutlineSteps& outlines,
                       std::uint64_t* kept) {
-  find_walls_and_places(mesh, vertices, outlines.squared_step);
+  find_walls_and_faces(mesh, vertices, outlines.squared_step);
   find_depths();
   const auto is_enclosed = [&](Index t) {
-    return is_wall_[t] != 0 || depth_[places_.standing_for(t)] % 2 == 1;
+    return is_wall_[t] != 0 || depth_[faces_.standing_for(t)] % 2 == 1;
   };
   double twice_area = 0;
   for (Index t = 0; t < mesh.triangle_count(); ++t) {
@@ -56,10 +42,10 @@ bool OutlineFill::run(const Mesh& mesh, const Point* vertices, const OutlineStep
   return true;
 }
 
-void OutlineFill::find_walls_and_places(const Mesh& mesh, const Point* vertices, double squared_step) {
+void OutlineFill::find_walls_and_faces(const Mesh& mesh, const Point* vertices, double squared_step) {
   const Index outside = mesh.triangle_count();
   walls_.reset(mesh.triangle_count() / 2 + 1);
-  places_.reset(std::size_t{outside} + 1);
+  faces_.reset(std::size_t{outside} + 1);
   is_wall_.assign(outside, 1);
   for (Index t = 0; t < outside; ++t) {
     if (mesh.is_ghost(t)) continue;
@@ -73,18 +59,18 @@ void OutlineFill::find_walls_and_places(const Mesh& mesh, const Point* vertices,
       }
       is_wall_[t] = 0;
       const Index other = neighbour(mesh, t, k);
-      places_.join(t, mesh.is_ghost(other) ? outside : other);
+      faces_.join(t, mesh.is_ghost(other) ? outside : other);
     }
   }
 
-  walls_of_place_.clear();
+  walls_of_face_.clear();
   for (Index t = 0; t < outside; ++t) {
     if (mesh.is_unused(t)) continue;
     const bool is_ghost = mesh.is_ghost(t);
     if (!is_ghost && is_wall_[t] != 0) continue;
-    const Index place = places_.standing_for(is_ghost ? outside : t);
+    const Index face = faces_.standing_for(is_ghost ? outside : t);
     for (Index k = 0; k < (is_ghost ? 2U : 3U); ++k) {
-      walls_of_place_.push_back({place, walls_.standing_for(mesh.corners(t)[k])});
+      walls_of_face_.push_back({face, walls_.standing_for(mesh.corners(t)[k])});
     }
   }
   const auto sort_by = [](std::vector<Touch>& touches, auto first, auto second) {
@@ -92,31 +78,31 @@ void OutlineFill::find_walls_and_places(const Mesh& mesh, const Point* vertices,
       return a.*first < b.*first || (a.*first == b.*first && a.*second < b.*second);
     });
   };
-  sort_by(walls_of_place_, &Touch::place, &Touch::wall);
+  sort_by(walls_of_face_, &Touch::face, &Touch::wall);
   const auto last =
-      std::unique(walls_of_place_.begin(), walls_of_place_.end(),
-                  [](const Touch& a, const Touch& b) { return a.place == b.place && a.wall == b.wall; });
-  walls_of_place_.erase(last, walls_of_place_.end());
-  places_of_wall_ = walls_of_place_;
-  sort_by(places_of_wall_, &Touch::wall, &Touch::place);
+      std::unique(walls_of_face_.begin(), walls_of_face_.end(),
+                  [](const Touch& a, const Touch& b) { return a.face == b.face && a.wall == b.wall; });
+  walls_of_face_.erase(last, walls_of_face_.end());
+  faces_of_wall_ = walls_of_face_;
+  sort_by(faces_of_wall_, &Touch::wall, &Touch::face);
 }
 
-/// From the outside on, place by place; each is reached, since triangles that share a corner touch one wall.
+/// From the outside on, face by face; each is reached, since triangles that share a corner touch one wall.
 void OutlineFill::find_depths() {
   const auto outside = static_cast<Index>(is_wall_.size());
   depth_.assign(is_wall_.size() + 1, kNone);
   is_passed_.assign(is_wall_.size() / 2 + 1, 0);
-  queue_.assign(1, places_.standing_for(outside));
+  queue_.assign(1, faces_.standing_for(outside));
   depth_[queue_.front()] = 0;
   for (std::size_t next = 0; next < queue_.size(); ++next) {
-    const Index place = queue_[next];
-    for_each_with(walls_of_place_, &Touch::place, place, [&](const Touch& border) {
+    const Index face = queue_[next];
+    for_each_with(walls_of_face_, &Touch::face, face, [&](const Touch& border) {
       if (is_passed_[border.wall] != 0) return;
       is_passed_[border.wall] = 1;
-      for_each_with(places_of_wall_, &Touch::wall, border.wall, [&](const Touch& beyond) {
-        if (depth_[beyond.place] != kNone) return;
-        depth_[beyond.place] = depth_[place] + 1;
-        queue_.push_back(beyond.place);
+      for_each_with(faces_of_wall_, &Touch::wall, border.wall, [&](const Touch& beyond) {
+        if (depth_[beyond.face] != kNone) return;
+        depth_[beyond.face] = depth_[face] + 1;
+        queue_.push_back(beyond.face);
       });
     });
   }
@@ -130,11 +116,9 @@ double OutlineFill::share_between(const Mesh& mesh) {
   for (Index t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.is_unused(t)) continue;
     const bool is_ghost = mesh.is_ghost(t);
-    const Index place = is_ghost ? mesh.triangle_count() : t;
-    const bool is_place = is_ghost || is_wall_[t] == 0;
-    const Side side = !is_place                                      ? kNeither
-                      : depth_[places_.standing_for(place)] % 2 == 1 ? kInside
-                                                                     : kOutside;
+    const Index face = is_ghost ? mesh.triangle_count() : t;
+    const bool is_face = is_ghost || is_wall_[t] == 0;
+    const Side side = !is_face ? kNeither : depth_[faces_.standing_for(face)] % 2 == 1 ? kInside : kOutside;
     for (Index k = 0; k < (is_ghost ? 2U : 3U); ++k) {
       std::uint8_t& sides = sides_[mesh.corners(t)[k]];
       sides = static_cast<std::uint8_t>(sides | side);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "half_edge.hpp"
+#include "joined_things.hpp"
 #include "size_field.hpp"
 
 namespace polylidar::detail {
@@ -12,9 +13,9 @@ namespace polylidar::detail {
 /// Selects triangles by the outlines that points lie on, keeping its memory between calls.
 ///
 /// Points that are joined by edges no longer than the field's step form a *wall*. Triangles that share longer
-/// edges form a *place*; one place is the outside. Going inwards from the outside, places are inside and
-/// outside by turns: a place that touches the walls round the outside is inside, a place beyond a wall that
-/// stands inside is a hole, and so on. Triangles without an edge longer than a step are part of the wall, and
+/// edges form a *face*; one face is the outside. Going inwards from the outside, faces are inside and outside
+/// by turns: a face that touches the walls round the outside is inside, a face beyond a wall that stands
+/// inside is a hole, and so on. Triangles without an edge longer than a step are part of the wall, and
 /// walls belong to the shape. A detail below 1 also adds triangles without an edge longer than step / detail;
 /// a detail above 1 changes nothing.
 class OutlineFill {
@@ -27,40 +28,30 @@ class OutlineFill {
  private:
   using Index = Mesh::Index;
 
-  /// Things that are joined, directly or through others. One of them stands for all (union-find).
-  class JoinedThings {
-   public:
-    void reset(std::size_t count);
-    Index standing_for(Index thing);
-    void join(Index a, Index b) { first_[standing_for(a)] = standing_for(b); }
-
-   private:
-    std::vector<Index> first_;  ///< thing -> one that it was joined to, or itself
-  };
   struct Touch {
-    Index place;
+    Index face;
     Index wall;
   };
-  /// How many points of a wall touch places of each kind.
+  /// How many points of a wall touch faces of each kind.
   struct WallPoints {
     Index outside = 0;
     Index inside = 0;
   };
 
-  void find_walls_and_places(const Mesh& mesh, const Point* vertices, double squared_step);
+  void find_walls_and_faces(const Mesh& mesh, const Point* vertices, double squared_step);
   void find_depths();
   double share_between(const Mesh& mesh);
 
   JoinedThings walls_;                   ///< of vertices
-  JoinedThings places_;                  ///< of triangles; one more, the outside, stands for all ghosts
+  JoinedThings faces_;                   ///< of triangles; one more, the outside, stands for all ghosts
   std::vector<std::uint8_t> is_wall_;    ///< triangle -> whether it has no edge longer than a step
-  std::vector<Touch> walls_of_place_;    ///< sorted by place
-  std::vector<Touch> places_of_wall_;    ///< the same, by wall
-  std::vector<Index> depth_;             ///< place -> how many walls lie between it and the outside
+  std::vector<Touch> walls_of_face_;     ///< sorted by face
+  std::vector<Touch> faces_of_wall_;     ///< the same, by wall
+  std::vector<Index> depth_;             ///< face -> how many walls lie between it and the outside
   std::vector<std::uint8_t> is_passed_;  ///< wall -> whether depth_ is known of what touches it
-  std::vector<std::uint8_t> sides_;      ///< vertex -> what kinds of places it touches
+  std::vector<std::uint8_t> sides_;      ///< vertex -> what kinds of faces it touches
   std::vector<WallPoints> points_of_wall_;
-  std::vector<Index> queue_;  ///< places whose depth is known
+  std::vector<Index> queue_;  ///< faces whose depth is known
 };
 
 }  // namespace polylidar::detail

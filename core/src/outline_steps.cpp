@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "filter_rules.hpp"
@@ -39,7 +40,7 @@ std::optional<double> squared_outline_step(const Mesh& mesh, const Point* vertic
   constexpr double kMostOnHull = 256;   // of more, the walls tell
   constexpr double kFlatOnHull = 0.25;  // half of the triangles of a regular dodecagon are as flat
   constexpr double kLeastShare = 0.06;  // of triangles that span from one outline to another
-  constexpr double kMedianGap = 0.6931471805599453;  // log 2, of the mean
+  constexpr double kMedianGap = std::numbers::ln2;  // of the mean
   const bool is_convex = points >= kFewestOnHull && points < kMostOnHull && are_all_on_hull(mesh);
   if (points < kFewest && !is_convex) return std::nullopt;
   const auto for_some = [&](std::size_t number, const auto& visit) {

@@ -45,17 +45,18 @@ class Ranking {
   Ranking& operator=(const Ranking&) = delete;
   ~Ranking() = default;
 
-  /// The value at `place`, below their number, in ascending order; none if its cell holds too many values.
-  std::optional<double> at(std::size_t place) const {
+  /// The value of this rank, from 0 and below their number, in ascending order; none if its cell holds too
+  /// many values.
+  std::optional<double> at(std::size_t rank) const {
     constexpr std::size_t kMostInACell = 64;
     const Cell* cell = cells_.data();
-    for (; place >= cell->count; ++cell) place -= cell->count;
+    for (; rank >= cell->count; ++cell) rank -= cell->count;  // down to that within its cell
     if (cell->count > kMostInACell) return {};
     std::array<double, kMostInACell> found;
     std::uint32_t i = cell->last;
     for (std::size_t k = 0; k < cell->count; ++k, i = before_[i]) found[k] = values_[i];
-    std::nth_element(found.data(), &found[place], found.data() + cell->count);
-    return found[place];
+    std::nth_element(found.data(), &found[rank], found.data() + cell->count);
+    return found[rank];
   }
 
  private:
@@ -80,26 +81,26 @@ class Ranking {
   std::array<Cell, std::size_t{1} << kCellBits> cells_{};
 };
 
-/// The value at `place` of `values` in ascending order; it may reorder them.
-inline double value_at(std::span<double> values, std::size_t place) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(place);
+/// The value of this rank among `values` in ascending order, from 0; it may reorder them.
+inline double value_of_rank(std::span<double> values, std::size_t rank) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(rank);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
-/// The place of a quantile of so many values, at least one, in ascending order.
-inline std::size_t place_of(double quantile, std::size_t values) {
+/// The rank of a quantile among so many values, at least one, in ascending order, from 0.
+inline std::size_t rank_of(double quantile, std::size_t values) {
   return std::min(values - 1, static_cast<std::size_t>(quantile * static_cast<double>(values)));
 }
 
 /// The value at `quantile` of `values`, which it may reorder. Needs at least one value, none of them NaN.
 inline double quantile_of(std::span<double> values, double quantile) {
-  const std::size_t place = place_of(quantile, values.size());
+  const std::size_t rank = rank_of(quantile, values.size());
   constexpr std::size_t kFew = 24;  // below, cells cost more than they save
   if (values.size() >= kFew) {
-    if (const std::optional<double> value = Ranking(values).at(place)) return *value;
+    if (const std::optional<double> value = Ranking(values).at(rank)) return *value;
   }
-  return value_at(values, place);
+  return value_of_rank(values, rank);
 }
 
 /// An estimate of a standard deviation from the 0.9 quantile of the distances to the middle, as if the values

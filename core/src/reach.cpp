@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 #include "vector.hpp"
 
@@ -32,21 +33,21 @@ struct Reach {
 
   /// Where all circumradii are below kNearRadius.
   Neighbourhood near;
-  /// Part k of a turn -> where they are below kRadius and the circumcentres lie in these directions.
-  std::array<Neighbourhood, kPartsOfTurn> in_part;
+  /// Fraction k of a turn -> where they are below kRadius and the circumcentres lie in these directions.
+  std::array<Neighbourhood, kTurnFractions> in_fraction;
 };
 
 /// Of a triangle at p with a circumradius below R and the circumcentre in direction u the corners lie in the
-/// disk of radius R with the centre p + R u. Over all u of a part of a turn, these disks are: those of the
-/// first and the last u, and, in the directions between, all that is within 2 R of p.
+/// disk of radius R with the centre p + R u. Over all u of a fraction of a turn, these disks are: those of
+/// the first and the last u, and, in the directions between, all that is within 2 R of p.
 Reach::Reach() {
   // For all rounding: a point is within Grid::kSlack of its cell, and no number below exceeds 2^9, so each is
   // off by less than 2^-40.
   constexpr double kWithin = 0x1p-10;
   constexpr int kFarthest = Neighbourhood::kFarthest;
-  std::array<Vector, kPartsOfTurn + 1> directions;
+  std::array<Vector, kTurnFractions + 1> directions;
   for (std::size_t k = 0; k < directions.size(); ++k) {
-    const double angle = static_cast<double>(k) * (6.283185307179586 / kPartsOfTurn);
+    const double angle = static_cast<double>(k) * (2 * std::numbers::pi / kTurnFractions);
     directions[k] = {std::cos(angle), std::sin(angle)};
   }
   for (int row = -kFarthest; row <= kFarthest; ++row) {
@@ -62,18 +63,19 @@ Reach::Reach() {
       const std::uint32_t bit = std::uint32_t{1} << static_cast<unsigned>(column + kFarthest);
       if (is_within(2 * kNearRadius, {0, 0})) near.rows[row_index] |= bit;
       if (!is_within(2 * kRadius, {0, 0})) continue;
-      std::array<bool, kPartsOfTurn + 1> in_disk{};
-      std::array<double, kPartsOfTurn + 1> most_left{};  // how far some of it lies to the left of a direction
-      std::array<double, kPartsOfTurn + 1> most_right{};
+      std::array<bool, kTurnFractions + 1> in_disk{};
+      // How far some of it lies to the left of a direction, and to the right.
+      std::array<double, kTurnFractions + 1> most_left{};
+      std::array<double, kTurnFractions + 1> most_right{};
       for (std::size_t k = 0; k < directions.size(); ++k) {
         const Vector& u = directions[k];
         in_disk[k] = is_within(kRadius, {kRadius * u.x, kRadius * u.y});
         most_left[k] = u.x * row - u.y * column + std::abs(u.x) + std::abs(u.y);
         most_right[k] = u.y * column - u.x * row + std::abs(u.x) + std::abs(u.y);
       }
-      for (std::size_t k = 0; k < kPartsOfTurn; ++k) {
+      for (std::size_t k = 0; k < kTurnFractions; ++k) {
         const bool is_between = most_left[k] > -kWithin && most_right[k + 1] > -kWithin;
-        if (in_disk[k] || in_disk[k + 1] || is_between) in_part[k].rows[row_index] |= bit;
+        if (in_disk[k] || in_disk[k + 1] || is_between) in_fraction[k].rows[row_index] |= bit;
       }
     }
   }
@@ -97,8 +99,8 @@ void mark(const Grid& grid, Grid::Cell cell, std::span<const unsigned> half_widt
 /// Of a point in `cell` with large triangles in the directions `open`.
 void mark(const Grid& grid, Grid::Cell cell, Directions open, const Reach& reach, Bitmap& reached) {
   Neighbourhood cells = reach.near;
-  for (unsigned parts = open; parts != 0; parts &= parts - 1) {
-    const Neighbourhood& more = reach.in_part[static_cast<std::size_t>(std::countr_zero(parts))];
+  for (unsigned fractions = open; fractions != 0; fractions &= fractions - 1) {
+    const Neighbourhood& more = reach.in_fraction[static_cast<std::size_t>(std::countr_zero(fractions))];
     for (std::size_t r = 0; r < cells.rows.size(); ++r) cells.rows[r] |= more.rows[r];
   }
   const Grid::Cell first = cell - Neighbourhood::kFarthest;
@@ -128,18 +130,15 @@ template <class NotReached>
 bool is_whole(const Triangle& triangle, const Grid& grid, const NotReached& not_reached) {
   const Vector b = triangle.b - triangle.a;
   const Vector c = triangle.c - triangle.a;
-  const double squared_b = squared_length(b);
-  const double squared_c = squared_length(c);
   const double twice_cross = 2 * cross(b, c);
   // Of flat triangles the circle is not known well enough. Of the others, with a longest edge L and e =
   // 2^-53: twice_cross >= 2^-20 L^2 is off by at most 16 e L^2, which is 2^-29 of itself, and the numerators
-  // below by 16 e L^3. A circle of radius below kRadius cells has L < 2 kRadius, so its centre is off by less
-  // than 2^-24 of a cell.
+  // of the circumcentre by 16 e L^3. A circle of radius below kRadius cells has L < 2 kRadius, so its centre
+  // is off by less than 2^-24 of a cell.
   constexpr double kLeastCross = 0x1p-20;
-  const double longest = std::max({squared_b, squared_c, triangle.squared_bc()});
+  const double longest = std::max({squared_length(b), squared_length(c), triangle.squared_bc()});
   if (!(twice_cross >= kLeastCross * longest)) return false;
-  const Vector centre{(c.y * squared_b - b.y * squared_c) / twice_cross,
-                      (b.x * squared_c - c.x * squared_b) / twice_cross};
+  const Vector centre = circumcentre(b, c, twice_cross);
   const double radius = std::sqrt(squared_length(centre)) * grid.cells_per_length();
   if (!(radius < kRadius)) return false;
   constexpr double kSlack = 0x1p-6;  // of a cell: far more than that and Grid::kSlack, and costs nothing

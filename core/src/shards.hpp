@@ -15,8 +15,8 @@
 
 namespace polylidar::detail {
 
-/// Up to so many points are put into memory, all by the first shard.
-inline constexpr std::uint64_t kFewPoints = std::uint64_t{1} << 16U;
+/// Up to so many points are put into memory whatever the options say, all by the first shard.
+inline constexpr std::uint64_t kMostPointsInMemory = std::uint64_t{1} << 16U;
 
 /// Whether all points are on a line parallel to an axis, where a grid has no cells.
 inline bool is_flat(const Box& box) {

@@ -26,7 +26,7 @@ struct SizeField {
   /// As a factor of limit4: the fourth power of the size from which a spike is dropped.
   double spike_share = 0;
   /// Regions with fewer triangles are dropped.
-  std::size_t least_part = 0;
+  std::size_t least_region = 0;
   /// The fourth power of the detail, at least 1: limit4 times this is the limit at a detail of 1.
   double detail4 = 1;
   /// A hole stays only if it has a dropped triangle whose squared circumradius is at least this many times

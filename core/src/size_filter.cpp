@@ -106,7 +106,7 @@ class WholeMesh {
 }  // namespace
 
 /// The mesh of a part.
-struct SizeFilter::Part {
+struct SizeFilter::PartMesh {
   static constexpr bool kIsAll = false;
   const Mesh& mesh;
   const Point* vertices;
@@ -147,23 +147,23 @@ void SizeFilter::run(const Mesh& mesh, const Point* vertices, const SizeField& f
   keep_within_limit(mesh, vertices, field, pool, kept);
   drop_spikes(mesh, vertices, field, pool, kept);
   const WholeMesh whole(mesh, vertices);
-  if (field.least_part > 0 && !drop_small_parts(mesh, whole, field.least_part, kept) && field.detail4 > 1 &&
-      has_large_part_with_less_detail(mesh, vertices, field, pool, kept)) {
+  if (field.least_region > 0 && !drop_small_regions(mesh, whole, field.least_region, kept) &&
+      field.detail4 > 1 && has_large_region_with_less_detail(mesh, vertices, field, pool, kept)) {
     std::fill_n(kept, mesh.word_count(), 0);
   }
   if (field.wide_square > 0) fill_small_holes(mesh, vertices, whole, field, kept);
 }
 
 /// Whether some region is large at a detail of 1. `kept` is the same afterwards.
-bool SizeFilter::has_large_part_with_less_detail(const Mesh& mesh, const Point* vertices,
-                                                 const SizeField& field, ThreadPool& pool,
-                                                 std::uint64_t* kept) {
+bool SizeFilter::has_large_region_with_less_detail(const Mesh& mesh, const Point* vertices,
+                                                   const SizeField& field, ThreadPool& pool,
+                                                   std::uint64_t* kept) {
   SizeField usual = field;
   for (double& limit4 : usual.limit4) limit4 *= field.detail4;
   const std::vector<std::uint64_t> before(kept, kept + mesh.word_count());
   keep_within_limit(mesh, vertices, usual, pool, kept);
   drop_spikes(mesh, vertices, usual, pool, kept);
-  const bool has_large = drop_small_parts(mesh, WholeMesh(mesh, vertices), field.least_part, kept);
+  const bool has_large = drop_small_regions(mesh, WholeMesh(mesh, vertices), field.least_region, kept);
   std::copy(before.begin(), before.end(), kept);
   return has_large;
 }
@@ -216,7 +216,7 @@ std::optional<Way> SizeFilter::run_on_part(const Mesh& mesh, const Point* vertic
                                            const std::uint8_t* is_tested, const SizeField& field,
                                            const IsSure& is_sure, ThreadPool& pool, std::uint64_t* kept) {
   SeenTriangles hidden(mesh, hidden_);
-  const Part part{mesh, vertices, is_tested, field, is_sure, hidden};
+  const PartMesh part{mesh, vertices, is_tested, field, is_sure, hidden};
   doubt_.reset();
   doubtful_.clear();
   drop_beyond_limit(part, pool, kept);
@@ -224,7 +224,8 @@ std::optional<Way> SizeFilter::run_on_part(const Mesh& mesh, const Point* vertic
   if (doubt_) return doubt_;
   if (!doubtful_.empty()) return Way::kReachesFar;
   for (const Index t : changed_) drop(kept, t);
-  if (field.least_part > 0 && !drop_small_parts(mesh, part, field.least_part, kept) && field.detail4 > 1) {
+  if (field.least_region > 0 && !drop_small_regions(mesh, part, field.least_region, kept) &&
+      field.detail4 > 1) {
     doubt_ = Way::kReachesFar;  // the limit at a detail of 1 is beyond the part
   }
   if (field.wide_square > 0) fill_small_holes(mesh, vertices, part, field, kept);
@@ -234,7 +235,7 @@ std::optional<Way> SizeFilter::run_on_part(const Mesh& mesh, const Point* vertic
 
 /// Drops the triangles with a tested corner that are beyond the limit, and puts them and the ghosts into
 /// found_of_chunk_. Others beyond it, if they are sure, are hidden: kept, unless they are reached.
-void SizeFilter::drop_beyond_limit(const Part& part, ThreadPool& pool, std::uint64_t* kept) {
+void SizeFilter::drop_beyond_limit(const PartMesh& part, ThreadPool& pool, std::uint64_t* kept) {
   const Mesh& mesh = part.mesh;
   const Chunks chunks(pool, mesh.triangle_count());
   clear_found(chunks);
@@ -262,7 +263,7 @@ void SizeFilter::drop_beyond_limit(const Part& part, ThreadPool& pool, std::uint
 
 /// Walks from what drop_beyond_limit() found to all dropped triangles that are connected to it. Drops those
 /// that were hidden, and puts spikes into changed_. doubtful_ are the triangles that would have to be sure.
-void SizeFilter::follow_dropped(const Part& part, std::uint64_t* kept) {
+void SizeFilter::follow_dropped(const PartMesh& part, std::uint64_t* kept) {
   const Mesh& mesh = part.mesh;
   group_.clear();
   for (const std::vector<Index>& dropped : found_of_chunk_) {
@@ -347,18 +348,18 @@ Mesh::Index next_on_border(const Mesh& mesh, const Whole& whole, Mesh::Index e) 
   }
 }
 
-/// Returns false if there are only small parts, which stay. walk_region() tells which are.
+/// Returns false if there are only small regions, which stay. walk_region() tells which are.
 ///
 /// In the mesh of a part, that walk may not be allowed to go on. But a region of t triangles has at most t +
-/// 2 half-edges on its border. So where least_part + 2 of these follow one another, the region is large
+/// 2 half-edges on its border. So where least_region + 2 of these follow one another, the region is large
 /// enough. They follow one another in the mesh of all points, too: at a tested vertex all triangles are those
 /// of that mesh, and those that are passed are kept in it. A spike of it is on two dropped triangles. Where
 /// one of these was met, the spike was dropped here, too; otherwise both are hidden, and one of them has a
 /// corner at the vertex and is passed as well.
 template <class Whole>
-bool SizeFilter::drop_small_parts(const Mesh& mesh, const Whole& whole, std::size_t least_part,
-                                  std::uint64_t* kept) {
-  const std::size_t long_border = least_part + 2;
+bool SizeFilter::drop_small_regions(const Mesh& mesh, const Whole& whole, std::size_t least_region,
+                                    std::uint64_t* kept) {
+  const std::size_t long_border = least_region + 2;
   SeenTriangles seen(mesh, seen_);
   changed_.clear();
   // Returns how many half-edges follow one another from `first` on, at most `most`.
@@ -378,12 +379,12 @@ bool SizeFilter::drop_small_parts(const Mesh& mesh, const Whole& whole, std::siz
       const Index start = Mesh::triangle_of(e);
       if (!mesh.is_kept(start) || seen.contain(start)) continue;
       const bool is_long = !Whole::kIsAll && walk_border(e, long_border, [](Index) {}) == long_border;
-      if (is_long || (walk_region(mesh, whole, e, least_part, seen) && Whole::kIsAll)) {
+      if (is_long || (walk_region(mesh, whole, e, least_region, seen) && Whole::kIsAll)) {
         walk_border(e, std::numeric_limits<std::size_t>::max(), [&](Index t) { seen.add(t); });
       }
     }
   });
-  // Where all parts are small there is nothing that they are small beside.
+  // Where all regions are small there is nothing that they are small beside.
   std::size_t count = 0;
   for (std::size_t w = 0; w < mesh.word_count(); ++w) {
     count += static_cast<std::size_t>(std::popcount(kept[w]));
@@ -397,7 +398,7 @@ bool SizeFilter::drop_small_parts(const Mesh& mesh, const Whole& whole, std::siz
 /// to be of a large one, or ends. If it ends, puts it into changed_, and the triangles at which it cannot go
 /// on into doubtful_, and returns false.
 template <class Whole, class Seen>
-bool SizeFilter::walk_region(const Mesh& mesh, const Whole& whole, Index border, std::size_t least_part,
+bool SizeFilter::walk_region(const Mesh& mesh, const Whole& whole, Index border, std::size_t least_region,
                              Seen& seen) {
   seen.add(Mesh::triangle_of(border));
   group_.assign(1, border);  // the half-edges by which the walk came
@@ -424,7 +425,7 @@ bool SizeFilter::walk_region(const Mesh& mesh, const Whole& whole, Index border,
         group_.push_back(twin);
       }
     }
-    is_large |= group_.size() >= least_part;
+    is_large |= group_.size() >= least_region;
   }
   if (is_large) {
     doubtful_.resize(before);
@@ -463,8 +464,9 @@ void SizeFilter::fill_small_holes(const Mesh& mesh, const Point* vertices, const
     std::size_t border = 0;
     for (std::size_t next = 0; next < group_.size();) {
       const Index t = group_[next++];
-      // Only triangles that are too large count: one that was dropped as a spike or with a small part may lie
-      // where a part of the mesh was not built. Nor do those count whose circumradius rounding may have made.
+      // Only triangles that are too large count: one that was dropped as a spike or with a small region may
+      // lie where some of the mesh was not built. Nor do those count whose circumradius rounding may have
+      // made.
       const double too_close = kTooClose * field.wide_radius;
       if (Triangle(mesh, vertices, t).squared_shortest_edge() >= too_close * too_close &&
           whole.ask(OneSizeRule(field.limit4_at(mesh, t)), t) != Answer::kYes) {

@@ -23,8 +23,8 @@ namespace polylidar::detail {
 /// - A *spike* is dropped: a triangle that stands alone, or sticks out of the shape with two border edges
 ///   that meet at an acute angle, and is larger than the field says. Outliers and noise make spikes. There is
 ///   one pass: all are found before any is dropped.
-/// - A *part*, a region with fewer triangles than the field says, is dropped, unless all regions are that
-///   small, also with the limit at a detail of 1.
+/// - A *small region*, one with fewer triangles than the field says, is dropped, unless all regions are
+///   that small, also with the limit at a detail of 1.
 /// - A *hole*, connected dropped triangles that do not reach the convex hull, is filled if it has no wide
 ///   triangle beyond the limit, because chance makes such voids.
 class SizeFilter {
@@ -52,21 +52,22 @@ class SizeFilter {
   const std::vector<Index>& doubtful() const { return doubtful_; }
 
  private:
-  struct Part;
+  struct PartMesh;
 
   void clear_found(const Chunks& chunks);
   void keep_within_limit(const Mesh& mesh, const Point* vertices, const SizeField& field, ThreadPool& pool,
                          std::uint64_t* kept);
-  bool has_large_part_with_less_detail(const Mesh& mesh, const Point* vertices, const SizeField& field,
-                                       ThreadPool& pool, std::uint64_t* kept);
-  void drop_beyond_limit(const Part& part, ThreadPool& pool, std::uint64_t* kept);
-  void follow_dropped(const Part& part, std::uint64_t* kept);
+  bool has_large_region_with_less_detail(const Mesh& mesh, const Point* vertices, const SizeField& field,
+                                         ThreadPool& pool, std::uint64_t* kept);
+  void drop_beyond_limit(const PartMesh& part, ThreadPool& pool, std::uint64_t* kept);
+  void follow_dropped(const PartMesh& part, std::uint64_t* kept);
   void drop_spikes(const Mesh& mesh, const Point* vertices, const SizeField& field, ThreadPool& pool,
                    std::uint64_t* kept);
   template <class Whole>
-  bool drop_small_parts(const Mesh& mesh, const Whole& whole, std::size_t least_part, std::uint64_t* kept);
+  bool drop_small_regions(const Mesh& mesh, const Whole& whole, std::size_t least_region,
+                          std::uint64_t* kept);
   template <class Whole, class Seen>
-  bool walk_region(const Mesh& mesh, const Whole& whole, Index border, std::size_t least_part, Seen& seen);
+  bool walk_region(const Mesh& mesh, const Whole& whole, Index border, std::size_t least_region, Seen& seen);
   template <class Whole>
   void fill_small_holes(const Mesh& mesh, const Point* vertices, const Whole& whole, const SizeField& field,
                         std::uint64_t* kept);

@@ -29,11 +29,7 @@ namespace {
 using detail::Bitmap;
 using detail::Grid;
 using detail::has_changed;
-using detail::kFewPoints;
-
-std::invalid_argument not_finite(std::uint64_t number) {
-  return std::invalid_argument("point " + std::to_string(number) + " is not finite");
-}
+using detail::kMostPointsInMemory;
 
 /// Thrown in the first pass, where the points are not those of StreamOptions::expected.
 class NotAsExpected : public std::exception {};
@@ -239,7 +235,7 @@ void Stream::find_extents(bool is_for_others, const TakeBlock& also) {
       of_source.add(std::exchange(slots_[s].range, {}));
       part_.source_checksum += std::exchange(slots_[s].checksum, 0);
       if (of_source.not_finite() && !passes_.are_read_at_once()) {
-        throw not_finite(passes_.first_of(slots_[s].source) + *of_source.not_finite());
+        throw detail::point_not_finite(passes_.first_of(slots_[s].source) + *of_source.not_finite());
       }
     }
   };
@@ -251,7 +247,7 @@ void Stream::find_extents(bool is_for_others, const TakeBlock& also) {
     all.add(extent);
     counts.push_back(extent.count());
   }
-  if (all.not_finite()) throw not_finite(*all.not_finite());
+  if (all.not_finite()) throw detail::point_not_finite(*all.not_finite());
   extents_ = std::move(found);
   passes_.know_counts(std::move(counts));
   part_.source_points = all.count();
@@ -578,7 +574,7 @@ void Stream::find_points(bool keeps_map) {
 
 StreamShard Stream::find_part() {
   find_extents(true);
-  if (part_.source_points <= kFewPoints) {
+  if (part_.source_points <= kMostPointsInMemory) {
     if (part_.shard.number > 1) return std::move(part_);  // the first has all of them
     take_all();
     part_.numbers.resize(part_.points.size());
@@ -662,7 +658,7 @@ StreamedHull Stream::hull_by_limits() {
 /// takes that back if the points are others.
 void Stream::begin_as_expected() {
   const std::optional<ExpectedPoints>& expected = stream_options_.expected;
-  if (!expected || expected->count <= kFewPoints || !is_usual(expected->box)) return;
+  if (!expected || expected->count <= kMostPointsInMemory || !is_usual(expected->box)) return;
   part_.source_points = expected->count;
   part_.box = expected->box;
   if (detail::is_any_limit_given(part_.options)) {
@@ -686,7 +682,7 @@ void Stream::begin_as_expected() {
 StreamedHull Stream::find_hull() {
   begin_as_expected();
   if (is_first_pass_) find_extents(false);
-  if (part_.source_points <= kFewPoints) return hull_in_memory();
+  if (part_.source_points <= kMostPointsInMemory) return hull_in_memory();
   check_scale();
   if (detail::is_flat(part_.box)) return detail::hull_without_area(part_);
   if (detail::is_any_limit_given(part_.options)) return hull_by_limits();

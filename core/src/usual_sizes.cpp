@@ -34,15 +34,15 @@ void UsualSizes::smooth(const AutomaticConstants& constants) {
   logs_.resize(usual4_.size());
   std::transform(usual4_.begin(), usual4_.end(), logs_.begin(),
                  [](double usual4) { return std::log(usual4) / 4; });
-  around_.assign(usual4_.size(), {});
+  neighbour_sums_.assign(usual4_.size(), {});
   for_each_neighbour(constants.reach, [&](std::uint32_t block, std::uint32_t neighbour) {
     if (!std::isfinite(logs_[neighbour])) return;
-    around_[block].sum += std::llround(kFine * logs_[neighbour]);
-    ++around_[block].count;
+    neighbour_sums_[block].sum += std::llround(kFine * logs_[neighbour]);
+    ++neighbour_sums_[block].count;
   });
   scratch_.clear();
   for (std::size_t b = 0; b < usual4_.size(); ++b) {
-    const auto [sum, count] = around_[b];
+    const auto [sum, count] = neighbour_sums_[b];
     const bool is_alone = !std::isfinite(logs_[b]) || count == 0;
     constexpr double kSides = 2;  // of a border
     const double share = static_cast<double>(count) / (static_cast<double>(count) + kSides);

@@ -71,7 +71,7 @@ class UsualSizes {
   };
   /// The sum, in fine units, and the number of the logarithms of the usual sizes of a block's neighbours. A
   /// border counts once for each of its two sides that was looked at.
-  struct Around {
+  struct NeighbourSum {
     std::int64_t sum = 0;
     std::int64_t count = 0;
   };
@@ -83,7 +83,7 @@ class UsualSizes {
   std::vector<double> measured4_;  ///< the same before the step that works on it
   std::vector<std::vector<Border>> borders_of_chunk_;
   std::vector<Smallest> smallest_;
-  std::vector<Around> around_;
+  std::vector<NeighbourSum> neighbour_sums_;
   std::vector<double> logs_;     ///< block -> logarithm of its usual size, then how smoothing changes it
   std::vector<double> scratch_;  ///< values of which a quantile is taken
 };

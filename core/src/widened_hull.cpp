@@ -142,7 +142,7 @@ class Widening {
       outside = std::move(left);  // who is covered stays covered
       return false;
     });
-    // But a small part may be dropped beside one that has grown.
+    // But a small region may be dropped beside one that has grown.
     if (factor == 1 || outside_of(shape(factor), all).empty()) return factor;
     return least_factor(factor, [&](double wider) { return outside_of(shape(wider), all).empty(); });
   }

@@ -450,12 +450,10 @@ void WindowSample::measure(Window& window, double quantile, Share& share) {
     used += mesh.is_unused(t) ? 0U : 1U;
     if (mesh.is_ghost(t)) continue;
     const Triangle triangle(mesh, share.builder.vertices(), t);
-    // The circumcentre from corner a.
     const Vector b = triangle.b - triangle.a;
     const Vector c = triangle.c - triangle.a;
-    const double twice_cross = 2 * cross(b, c);
-    const Vector centre{(c.y * squared_length(b) - b.y * squared_length(c)) / twice_cross,
-                        (b.x * squared_length(c) - c.x * squared_length(b)) / twice_cross};
+    // Of a flat triangle both coordinates are infinite or NaN, and the comparison below leaves it out.
+    const Vector centre = circumcentre(b, c, 2 * cross(b, c));
     const double x = std::abs(triangle.a.x + centre.x - window.centre.x);
     const double y = std::abs(triangle.a.y + centre.y - window.centre.y);
     if (!(std::max(x, y) <= window.half_inner)) continue;

@@ -131,7 +131,7 @@ void check_without_interior(const Input& input, std::span<const Point> points, c
                 options.max_perimeter.value_or(kInfinity)});
   const detail::SizeField field{.limit4 = {limit * limit * limit * limit},
                                 .spike_share = 1.0 / (1 + input.choice % 8),
-                                .least_part = input.choice % 16U,
+                                .least_region = input.choice % 16U,
                                 .wide_square = 0.25 * (1 + input.choice % 32),
                                 .wide_radius = 0.9 * limit};
   const bool fill_single = input.choice % 2 == 0;

@@ -40,7 +40,7 @@ struct ChosenSizes {
 };
 
 /// What shape to extract. If no limit is given, one is chosen from the points, place by place
-/// (src/automatic_limit.hpp says how, Extractor::chosen_sizes() what it was). If one is given, the others are
+/// (core/AUTOMATIC.md says how, Extractor::chosen_sizes() what it was). If one is given, the others are
 /// kNoLimit.
 struct Options {
   /// Largest circumradius of a kept triangle, in the length unit of the points; >= 0. The paper's alpha
@@ -55,15 +55,15 @@ struct Options {
   /// How much detail the outline has if the limit is chosen; > 0 and finite, no unit. Twice the detail halves
   /// the largest size of a triangle: it finds holes and notches half as wide, but also more that are due to
   /// chance. More detail makes every limit smaller. Two things may come back all the same: the inside of a
-  /// hole, where the triangles round it have become others, and small parts, where no large one is left
+  /// hole, where the triangles round it have become others, and small regions, where no large one is left
   /// beside them. Ignored if a limit is given.
   double detail = 1;
   /// Whether to keep a triangle beyond a limit if its three neighbours are within it: random points leave
   /// such holes of one triangle by chance. Default: true if the limit is chosen, false if one is given.
   std::optional<bool> fill_single_triangles = std::nullopt;
-  /// How many threads to use, including the caller's; >= 1. The result is the same bit for bit. An Extractor
-  /// keeps its threads waiting until another number above 1 is asked for. Threads save time from about 10,000
-  /// points on. Throws std::system_error if the system refuses a thread.
+  /// How many threads to use, including the caller's; >= 1, and above 1024 no more are used. The result is
+  /// the same bit for bit. An Extractor keeps its threads waiting until another number above 1 is asked for.
+  /// Threads save time from about 10,000 points on. Throws std::system_error if the system refuses a thread.
   unsigned threads = 1;
 
   /// Field by field.
@@ -139,8 +139,9 @@ enum class Way : std::uint8_t {
   kWhole,               ///< all points were triangulated: asked for, or only all triangles say the limit
   kFewPoints,           ///< all points were: there are too few for a part to save time
   kExtremeCoordinates,  ///< all points were: their coordinates had to be scaled
-  kTooSparse,           ///< all points were: the limit is too small for their spacing
-  kMuchOutline,         ///< all points were: most of them are near an outline
+  kTooSparse,           ///< all points were: the limit is too small for their spacing, or they are on a line
+                        ///< parallel to an axis
+  kMuchOutline,         ///< all points were: too many of them are near an outline to save time
   kClosePoints,         ///< all points were: two may be so close that rounding of circumradii decides
   kRoundingDecides,     ///< all points were: rounding decides whether some triangle is kept
   kReachesFar,          ///< all points were: dropped triangles reach beyond the part
@@ -193,10 +194,11 @@ class Extractor {
   void triangulate(std::span<const Point> points, unsigned threads = 1);
   /// Step 2: the kept triangles and their edge-connected regions.
   void extract_regions(const Options& options);
-  /// After extract_regions: the limits that were given, in the unit of the points; all are kNoLimit if none
-  /// was given.
+  /// After extract or extract_regions: the limits that were given, in the unit of the points; all are
+  /// kNoLimit if none was given.
   Limits limits() const;
-  /// After extract_regions: the limit that was chosen; none if one was given or there is no triangle.
+  /// After extract or extract_regions: the limit that was chosen; none if one was given or there is no
+  /// triangle.
   std::optional<ChosenSizes> chosen_sizes() const;
   /// Step 3: the boundary of every region as a polygon.
   const IndexedMultiPolygon& extract_polygons();

@@ -33,7 +33,7 @@ struct Polygon {
 /// Polygons whose interiors are disjoint; empty for an empty shape.
 using MultiPolygon = std::vector<Polygon>;
 
-/// An axis-parallel box; `min` > `max` in an empty one.
+/// An axis-parallel box; `min` > `max` in an empty one. A default Box is not empty: it is the point (0, 0).
 struct Box {
   Point min;  ///< least x and least y
   Point max;  ///< greatest x and greatest y

@@ -18,7 +18,7 @@ struct WidenedHull {
 /// The hull of `points` with the least limit that gives what is wanted, to a thousandth. All limits that are
 /// given are widened by one factor; if none is given, `detail` is divided by it. Doubling and halving finds a
 /// factor for which it holds. It is the least one if wider limits lose no triangle: that is so if limits are
-/// given. If the core chooses them, it may drop a small part once another one has grown. From a factor of
+/// given. If the core chooses them, it may drop a small region once another one has grown. From a factor of
 /// 2^60 on there is no limit, and the shape is the convex hull. If one polygon is wanted and the caller's
 /// limit keeps no triangle, the polygon covers all points. The shape is empty if all points lie on a line.
 ///
