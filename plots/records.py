@@ -229,7 +229,7 @@ class Experiment:
             for number, text in enumerate(lines, 1):
                 if wanted is not None and wanted not in text:
                     continue
-                line = _checked(text, "picture.schema.json", f"{path}: line {number}")
+                line = checked(text, "picture.schema.json", f"{path}: line {number}")
                 if case is None or line["case"] == case:
                     yield line
 
@@ -282,10 +282,11 @@ def read_json(path: Path, schema: str | dict[str, Any], remedy: str = "") -> Any
     """What is in the file, compressed or not, if it is as the schema says: the name of one in results/, or one itself.
     `remedy` ends the sentence of the RecordError."""
     with _opened(path, remedy) as file:
-        return _checked(file.read(), schema, str(path), remedy)
+        return checked(file.read(), schema, str(path), remedy)
 
 
-def _checked(text: str, schema: str | dict[str, Any], where: str, remedy: str = "") -> Any:
+def checked(text: str, schema: str | dict[str, Any], where: str, remedy: str = "") -> Any:
+    """What `text` says, as read_json() says it of a file's; `where` begins the sentence of the RecordError."""
     try:
         value = json.loads(text, parse_constant=_refuse)
     except ValueError as error:

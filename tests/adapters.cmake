@@ -28,5 +28,4 @@ if(TARGET hullbench_adapter_pcl_concave_hull)
   hullbench_test(test_pcl_concave_hull SOURCES test_pcl_concave_hull.cpp
     LIBRARIES hullbench_adapter_pcl_concave_hull hullbench_adapter_interface hullbench_test_support hullbench::metrics
     LABELS adapters)
-  add_test(NAME contract.pcl_concave_hull COMMAND hullbench adapter test pcl_concave_hull)
 endif()

@@ -19,10 +19,6 @@ if(TARGET hullbench_adapter_postgis)
   set_target_properties(test_postgis PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
   add_test(NAME test_postgis COMMAND test_postgis)
   set_tests_properties(test_postgis PROPERTIES TIMEOUT 300 COST ${HULLBENCH_COST_OF_LONG_TESTS})
-
-  # Exit code 6: it is not installed, which its output explains. The old method is slow where points are many.
-  add_test(NAME contract.postgis_legacy COMMAND hullbench adapter test postgis_legacy --timeout 600 --points 1000)
-  set_tests_properties(contract.postgis_legacy PROPERTIES SKIP_RETURN_CODE 6 TIMEOUT 1200 COST ${HULLBENCH_COST_OF_LONG_TESTS})
 else()
   hullbench_skipped_test(test_postgis "this build does not have the methods of PostGIS")
 endif()

@@ -47,14 +47,6 @@ std::vector<json> lines_of(const fs::path& file) {
   return record::load_json_lines(file).lines;
 }
 
-std::set<std::string> ids_of(const fs::path& run) {
-  std::set<std::string> ids;
-  for (const json& line : lines_of(run / "runs.jsonl")) {
-    EXPECT_TRUE(ids.insert(line["id"]).second) << "a row is there twice";
-  }
-  return ids;
-}
-
 void expect_no_repetition_twice(const fs::path& run, int repetitions) {
   std::set<std::pair<std::string, int>> seen;
   for (const json& line : lines_of(run / "repetitions.jsonl")) {
@@ -141,8 +133,6 @@ TEST_F(CommandLineTest, UnknownWordsAndOptions) {
   expect_refusal(hullbench({"run", "states", "--repetitions", "many"}), 2, "--repetitions");
   expect_refusal(hullbench({"run", "states", "--passes", "0"}), 2, "--passes");
   expect_refusal(hullbench({"run", "states", "--passes", "101"}), 2, "--passes");
-  expect_refusal(hullbench({"run", "states", "--seed", "-1"}), 2, "--seed");
-  expect_refusal(hullbench({"run", "states", "--timeout", "0"}), 2, "--timeout");
   expect_refusal(hullbench({"run", "states", "--mem-limit", "1"}), 2, "--mem-limit");
   expect_refusal(hullbench({"run", "states", "--filter", "("}), 2, "is not a regular expression");
   expect_refusal(hullbench({"worker", "--method", "magic"}), 2, "there is no method 'magic'");
@@ -177,28 +167,30 @@ TEST_F(CommandLineTest, AParameterThatTheMethodDoesNotHave) {
 
 TEST_F(CommandLineTest, OutputFolderThatCannotBeWritten) {
   const std::string small = plan({500}, 1);
+  const std::string other = write(small_plan("other", california({600}), 1));
   fs::create_directory(folder() / "sealed");
   fs::permissions(folder() / "sealed", fs::perms::owner_read | fs::perms::owner_exec);
   ProgramOptions options;
   options.obey_permissions = true;
-  expect_refusal(
-      hullbench({"run", small, "--out", "sealed"}, options), 2,
-      "cannot write to the output folder sealed (Permission denied); choose another one with --out");
-  expect_refusal(hullbench({"run", small, "--out", "sealed/new"}, options), 2,
-                 "sealed/new (Permission denied)");
-  expect_refusal(hullbench({"run", small, "--out", "small.json"}), 2,
-                 "cannot write to the output folder small.json");
-  options.folder = folder() / "sealed";
-  expect_refusal(hullbench({"run", small}, options), 2, "results/runs (Permission denied)");
+  ProgramOptions in_sealed = options;
+  in_sealed.folder = folder() / "sealed";
+  // Of one plan and of several, which is a suite.
+  for (const std::vector<std::string>& run :
+       std::vector<std::vector<std::string>>{{"run", small}, {"run", small, other}}) {
+    expect_refusal(
+        hullbench(joined(run, {"--out", "sealed"}), options), 2,
+        "cannot write to the output folder sealed (Permission denied); choose another one with --out");
+    expect_refusal(hullbench(joined(run, {"--out", "sealed/new"}), options), 2,
+                   "cannot write to the output folder sealed/new (Permission denied)");
+    expect_refusal(hullbench(joined(run, {"--out", "small.json"})), 2,
+                   "cannot write to the output folder small.json");
+    expect_refusal(hullbench(run, in_sealed), 2, "results/runs (Permission denied)");
+  }
   fs::permissions(folder() / "sealed", fs::perms::owner_all);
 }
 
 TEST_F(CommandLineTest, OutputFolderWithSomethingElse) {
-  const std::string small = plan({500}, 1);
-  expect_refusal(hullbench({"run", small, "--out", "."}), 2, "holds something else than a run");
-  EXPECT_EQ(hullbench({"run", small, "--out", "mine"}).code, 0);
-  expect_refusal(hullbench({"run", small, "--out", "mine", "--seed", "2"}), 2, "holds another run");
-  EXPECT_EQ(hullbench({"run", small, "--out", "mine", "--seed", "2", "--force"}).code, 0);
+  expect_refusal(hullbench({"run", plan({500}, 1), "--out", "."}), 2, "holds something else than a run");
 }
 
 TEST_F(CommandLineTest, FullDisk) {
@@ -516,11 +508,6 @@ TEST_F(CommandLineTest, TablesAndValidateOfWhatIsNotThere) {
 
 TEST_F(CommandLineTest, MetricsAreListed) {
   expect_end(hullbench({"metrics"}), 0, "", "  l2  ratio, lower is better\n");
-  const Outcome as_json = succeeded(hullbench({"metrics", "--json"}));
-  const json table = json::parse(as_json.out);
-  ASSERT_FALSE(table.empty());
-  EXPECT_EQ(table[0]["name"], "valid");
-  EXPECT_EQ(table[0]["better"], "higher");
   EXPECT_EQ(hullbench({"metrics", "--markdown"}).out.find("### validity\n"), 0U);
   expect_refusal(hullbench({"metrics", "--json", "--markdown"}), 2, "excludes");
 }
@@ -715,22 +702,6 @@ TEST_F(InterruptionTest, CtrlCKeepsFinishedRowsAndASecondStartGoesOn) {
   expect_no_repetition_twice(folder() / "run", kRepetitions);
 }
 
-TEST_F(InterruptionTest, AKilledRunGivesTheSameRowsAsAnUninterruptedOne) {
-  for (const std::size_t lines : {1U, 50U, 130U}) {
-    EXPECT_EQ(stop_after(lines, SIGKILL).code, 128 + SIGKILL);
-  }
-  EXPECT_EQ(hullbench({"run", the_plan(), "--out", "run"}).code, 0);
-  EXPECT_EQ(hullbench({"run", the_plan(), "--out", "whole"}).code, 0);
-  EXPECT_EQ(ids_of(folder() / "run"), ids_of(folder() / "whole"));
-  EXPECT_EQ(ids_of(folder() / "run").size(), 6U);
-  expect_no_repetition_twice(folder() / "run", kRepetitions);
-  std::map<std::string, std::string> hashes;
-  for (const json& row : lines_of(folder() / "whole" / "runs.jsonl"))
-    hashes[row["id"]] = row["output_sha256"];
-  for (const json& row : lines_of(folder() / "run" / "runs.jsonl"))
-    EXPECT_EQ(row["output_sha256"], hashes[row["id"]]);
-}
-
 TEST_F(InterruptionTest, KilledAtRandomMomentsTheRowsAreThoseOfAnUninterruptedRun) {
   const char* const given = std::getenv("HULLBENCH_TEST_SEED");
   const auto seed = given != nullptr ? static_cast<std::random_device::result_type>(std::stoul(given))
@@ -750,7 +721,9 @@ TEST_F(InterruptionTest, KilledAtRandomMomentsTheRowsAreThoseOfAnUninterruptedRu
   EXPECT_GT(killed, 0);
   EXPECT_EQ(hullbench({"run", the_plan(), "--out", "run"}).code, 0);
   EXPECT_EQ(hullbench({"run", the_plan(), "--out", "whole"}).code, 0);
-  EXPECT_EQ(untimed_rows(folder() / "run"), untimed_rows(folder() / "whole"));
+  const std::vector<json> whole = untimed_rows(folder() / "whole");
+  EXPECT_EQ(whole.size(), 6U);
+  EXPECT_EQ(untimed_rows(folder() / "run"), whole);
   EXPECT_FALSE(fs::exists(folder() / "run" / "scratch"));
   expect_no_repetition_twice(folder() / "run", kRepetitions);
 }

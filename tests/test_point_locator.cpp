@@ -3,8 +3,10 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 
 #include "polylidar/point_locator.hpp"
+#include "tests/complaint.hpp"
 
 namespace polylidar {
 namespace {
@@ -106,6 +108,13 @@ TEST(PointLocator, EmptyAndFlatShapesAndOddPoints) {
   EXPECT_FALSE(locator.contains({nan, 1}));
   EXPECT_FALSE(locator.contains({1, nan}));
   EXPECT_FALSE(locator.contains({1, infinity}));
+  for (const double odd : {nan, infinity, -1e308, 1e46}) {
+    const MultiPolygon shape = {{.shell = {{0, 0}, {1, 0}, {1, odd}}, .holes = {}}};
+    EXPECT_EQ(
+        hullbench::testing::complaint_of<std::invalid_argument>([&] { const PointLocator none(shape); }),
+        "a shape's coordinates must be finite and at most 2^150; scale them")
+        << odd;
+  }
 }
 
 }  // namespace

@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -230,6 +232,32 @@ TEST(Stream, SaysWhatIsWrongOfSourcesAtTheSameTime) {
   EXPECT_EQ(complaint_of({.progress = change, .reads_at_once = true}), kOtherPoints);
 }
 
+// The other sources end, too: they are not read in vain.
+TEST(Stream, AnExceptionEndsAllSourcesThatAreReadAtTheSameTime) {
+  const Points points = testing::uniform_points(400'000, 5);
+  const std::size_t block = 1000;
+  std::atomic<std::size_t> blocks = 0;
+  std::vector<PointSource> sources = sources_of(points, 10, block);
+  for (PointSource& source : sources) {
+    source = [&blocks, read = source](const auto& take) {
+      read([&](std::span<const Point> points_of_block) {
+        ++blocks;
+        take(points_of_block);
+      });
+    };
+  }
+  const auto give_up = [thrown = false](const StreamProgress& progress) mutable {
+    if (progress.points < 20'000 || std::exchange(thrown, true)) return;
+    throw std::runtime_error("given up");
+  };
+  EXPECT_EQ(hullbench::testing::complaint_of<std::runtime_error>([&] {
+              concave_hull_of_stream(sources, {.threads = 2}, {.progress = give_up, .reads_at_once = true});
+            }),
+            "given up");
+  EXPECT_GE(blocks, 20U);
+  EXPECT_LE(blocks, 24U);  // of 400
+}
+
 // Points near the outline are kept when uncertain ones are looked for, as long as there is room for them.
 TEST(Stream, ReadsThePointsOnceLessWhereThereIsMemory) {
   const Points points = square_with_holes(300'000, 1, 3);
@@ -420,7 +448,8 @@ TEST(StreamShards, GiveWhatOneRunGives) {
 TEST(StreamShards, LookAsFarBeyondTheirBandsAsIsNecessary) {
   constexpr std::size_t kBand = 800;  // the lowest row of the second of two bands
   constexpr std::size_t kDense = kBand - 13;
-  const Options options{.alpha = 6 / (1 - 0x1p-8)};  // so that cells have the side 1
+  // So that cells have the side 1 (kSafety and kUneven of interior.hpp).
+  const Options options{.alpha = 6 / ((1 - 0x1p-8) * (1 - 0.0006180339887498949))};
   std::size_t in_lowest_row = 0;
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     SCOPED_TRACE(seed);
@@ -556,6 +585,9 @@ TEST(StreamShards, SayWhyTheyDoNotFitTogether) {
   EXPECT_EQ(damaged([&](StreamShard& s) { s.numbers[0] = right[0].numbers[0]; }), not_one_source);
   EXPECT_EQ(damaged([](StreamShard& s) { s.points[5] = {3, 3}; }), not_one_source);
   EXPECT_EQ(damaged([](StreamShard& s) { s.points[5] = {1e300, 3}; }), not_one_source);
+  std::vector<StreamShard> unlimited = right;
+  for (StreamShard& shard : unlimited) shard.options = {};
+  EXPECT_EQ(complaint(unlimited), not_one_source) << "nobody knows what is dropped without a limit";
   EXPECT_EQ(damaged([](StreamShard& s) { s.shard.number = 0; }), "there is no shard 0 of 3");
   StreamShard empty = MemorySource(points).part(options, {1, 1});
   empty.points.clear();

@@ -182,20 +182,6 @@ TEST_F(SuiteTest, IsNotReadAfterARunWasForcedIntoItsFolder) {
   EXPECT_EQ(hullbench({"tables", "suite"}).out, run.out);
 }
 
-TEST_F(SuiteTest, InAFolderThatCannotBeWrittenIsRefused) {
-  fs::create_directory(folder() / "sealed");
-  fs::permissions(folder() / "sealed", fs::perms::owner_read | fs::perms::owner_exec);
-  ProgramOptions options;
-  options.obey_permissions = true;
-  expect_refusal(hullbench(run_both({"--out", "sealed"}), options), 2,
-                 "cannot write to the output folder sealed");
-  expect_refusal(hullbench(run_both({"--out", "sealed/new"}), options), 2,
-                 "cannot write to the output folder sealed/new");
-  expect_refusal(hullbench(run_both({"--out", "first.json"})), 2,
-                 "cannot write to the output folder first.json");
-  fs::permissions(folder() / "sealed", fs::perms::owner_all);
-}
-
 TEST_F(SuiteTest, LeavesOutAPlanWithoutRuns) {
   const Outcome outcome = succeeded(hullbench(run_both({"--out", "suite", "--filter", "n:600/holes:1"})));
   EXPECT_FALSE(fs::exists(suite() / "first"));

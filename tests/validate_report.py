@@ -1,68 +1,47 @@
 #!/usr/bin/env python3
-"""Validates reports, run lines and plans with an implementation of JSON Schema 2020-12 that is not the program's own.
+"""Validates reports, run lines and plans as plots/records.py does: with an implementation of JSON Schema 2020-12 that is not the
+program's own.
 
     validate_report.py FILE...              every *.json against the report's schema (a plan: the plan's), every line of *.jsonl against the run's
     validate_report.py --broken CASES FILE  FILE is valid, and with each change in CASES it is not
 
-Exit status: 0 valid; 1 a fault was found, printed with its place as a JSON pointer; 2 a file cannot be read.
+Exit status: 0 valid; 1 a file is not, and its first fault is printed; 2 wrong usage.
 """
 import copy
 import json
-import pathlib
 import sys
+from pathlib import Path
 
 import jsonschema
+import plot_tests  # for what is in plots/
 
-SCHEMAS = pathlib.Path(__file__).resolve().parent.parent / "results"
-PLAN_SCHEMA = "../benchmarks/plans/plan.schema.json"
+from records import SCHEMAS, RecordError, checked, read_json
 
-
-def strict_json(text):
-    """NaN and Infinity, which Python's reader takes, are no JSON."""
-
-    def refuse(constant):
-        raise ValueError(f"{constant} is not JSON")
-
-    return json.loads(text, parse_constant=refuse)
+RUN = "run.schema.json"
+REPORT = "report.schema.json"
+PLAN = "../benchmarks/plans/plan.schema.json"
+ANY_OBJECT = {"type": "object"}
 
 
-def read_schema(name):
-    schema = strict_json((SCHEMAS / name).read_text())
-    jsonschema.Draft202012Validator.check_schema(schema)
-    return schema
+def check_schemas():
+    """What records.py takes on trust."""
+    schemas = {name: read_json(SCHEMAS / name, ANY_OBJECT) for name in (RUN, REPORT, PLAN)}
+    for schema in schemas.values():
+        jsonschema.Draft202012Validator.check_schema(schema)
+    # Where it puts the run's schema in.
+    assert schemas[REPORT]["properties"]["runs"]["items"] == {"$ref": RUN}
 
 
-def run_validator():
-    return jsonschema.Draft202012Validator(read_schema("run.schema.json"))
-
-
-def report_validator():
-    """Of the report's schema with the run's put in where it refers to it, so that nothing has to be fetched."""
-    schema = read_schema("report.schema.json")
-    assert schema["properties"]["runs"]["items"] == {"$ref": "run.schema.json"}
-    schema["properties"]["runs"]["items"] = read_schema("run.schema.json")
-    return jsonschema.Draft202012Validator(schema)
-
-
-def faults(validator, document):
-    errors = validator.iter_errors(document)
-    return [f"/{'/'.join(str(step) for step in error.absolute_path)}: {error.message[:200]}" for error in errors]
-
-
-def faults_of_file(path):
-    text = path.read_text()
+def check_file(path):
+    text = path.read_text(encoding="utf-8")
     if path.suffix != ".jsonl":
-        document = strict_json(text)
-        if "cases" in document:
-            return faults(jsonschema.Draft202012Validator(read_schema(PLAN_SCHEMA)), document)
-        return faults(report_validator(), document)
-    validator = run_validator()
-    found = [
-        f"line {number}: {fault}"
-        for number, line in enumerate(text.splitlines(), 1)
-        for fault in faults(validator, strict_json(line))
-    ]
-    return found if text.endswith("\n") or not text else found + ["the last line is cut short"]
+        is_plan = "cases" in checked(text, ANY_OBJECT, str(path))
+        checked(text, PLAN if is_plan else REPORT, str(path))
+        return
+    for number, line in enumerate(text.splitlines(), 1):
+        checked(line, RUN, f"{path}: line {number}")
+    if text and not text.endswith("\n"):
+        raise RecordError(f"{path}: the last line is cut short")
 
 
 def changed(document, case):
@@ -79,38 +58,39 @@ def changed(document, case):
     return result
 
 
+def is_report(document):
+    try:
+        checked(json.dumps(document, allow_nan=False), REPORT, "")
+    except RecordError:
+        return False
+    return True
+
+
 def check_broken(cases_file, report_file):
-    validator = report_validator()
-    report = strict_json(report_file.read_text())
-    cases = strict_json(cases_file.read_text())
-    found = faults(validator, report)
-    if not cases:
-        found.append("there is no broken case to try")
-    for case in cases:
-        if validator.is_valid(changed(report, case)):
-            found.append(f"{case['path']}: the schema takes a report with this fault: {case['fault']}")
-    return found
+    report = read_json(report_file, REPORT)
+    cases = read_json(cases_file, {"type": "array", "minItems": 1})
+    taken = [f"{case['fault']} ({case['path']})" for case in cases if is_report(changed(report, case))]
+    if taken:
+        raise RecordError(f"the schema takes a report with {'; with '.join(taken)}")
 
 
 def main(arguments):
-    if not arguments or (arguments[0] == "--broken" and len(arguments) != 3):
+    is_broken = arguments[:1] == ["--broken"]
+    if not arguments or (is_broken and len(arguments) != 3):
         print(__doc__, file=sys.stderr)
         return 2
+    check_schemas()
     status = 0
-    try:
-        if arguments[0] == "--broken":
-            results = [(arguments[2], check_broken(*map(pathlib.Path, arguments[1:])))]
-        else:
-            results = [(argument, faults_of_file(pathlib.Path(argument))) for argument in arguments]
-    except (OSError, ValueError) as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 2
-    for name, found in results:
-        for fault in found:
-            print(f"{name}: {fault}", file=sys.stderr)
-            status = 1
-        if not found:
+    for name in arguments[2:] if is_broken else arguments:
+        try:
+            if is_broken:
+                check_broken(Path(arguments[1]), Path(name))
+            else:
+                check_file(Path(name))
             print(f"{name}: valid")
+        except (RecordError, OSError, UnicodeDecodeError) as error:
+            print(f"error: {error}", file=sys.stderr)
+            status = 1
     return status
 
 

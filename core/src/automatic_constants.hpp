@@ -29,7 +29,8 @@ struct AutomaticConstants {
   std::size_t above = 6;  ///< and this many above it
   double spike = 1.57;    ///< the size from which a triangle may be a spike
   double region = 2.4;    ///< a region has at least this many times log n triangles
-  double wide = kWide;    ///< a hole has a triangle whose circle would hold log n + wide points or more
+  double wide = kWide;    ///< a hole has a triangle whose circle would hold log n + wide points or more;
+                          ///< windows always take kWide
   double step = 3;        ///< neighbours on an outline are at most log n + step mean distances apart
 };
 

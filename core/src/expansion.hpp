@@ -6,10 +6,19 @@
 // operations.
 #pragma once
 
+#include <cfloat>
 #include <cmath>
 #include <cstddef>
 
+#ifdef __FAST_MATH__
+#error "exact predicates need the order of operations that is written; compile without -ffast-math"
+#endif
+
 namespace polylidar::detail {
+
+static_assert(
+    FLT_EVAL_METHOD == 0,
+    "exact predicates need doubles rounded to 53 bits; on 32-bit x86 compile with -msse2 -mfpmath=sse");
 
 /// A rounded value `high` and its rounding error `low`: `high + low` is exact.
 struct DoublePair {

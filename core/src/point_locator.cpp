@@ -3,10 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 #include "polylidar/predicates.hpp"
 
 namespace polylidar {
+
+namespace {
+
+constexpr double kLargest = 0x1p150;  ///< orient2d's range
+
+}  // namespace
 
 PointLocator::PointLocator(const MultiPolygon& shape) : bounds_(bounding_box({})) {
   std::vector<Edge> edges;
@@ -37,6 +44,9 @@ void PointLocator::add(const Ring& ring, std::uint32_t polygon, std::vector<Edge
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Point& from = ring[i];
     const Point& to = ring[(i + 1) % ring.size()];
+    if (!(std::abs(from.x) <= kLargest && std::abs(from.y) <= kLargest)) {
+      throw std::invalid_argument("a shape's coordinates must be finite and at most 2^150; scale them");
+    }
     const bool is_upward = from.y < to.y;
     edges.push_back({is_upward ? from : to, is_upward ? to : from, polygon});
   }

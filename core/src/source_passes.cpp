@@ -24,8 +24,8 @@ void SourcePasses::run(const Pass& pass) {
 }
 
 void SourcePasses::read_at_once(const Pass& pass) {
-  pool_.for_each(sources_.size(), [&](std::size_t s) {
-    if (!pass.is_read(s)) return;
+  error_ = nullptr;
+  const auto read = [&](std::size_t s) {
     std::uint64_t number = firsts_[s];
     sources_[s]([&](std::span<const Point> block) {
       pass.take(s, {s, number, block});
@@ -33,6 +33,18 @@ void SourcePasses::read_at_once(const Pass& pass) {
       tell(block.size());
     });
     check_count(s, number);
+  };
+  pool_.for_each(sources_.size(), [&](std::size_t s) {
+    if (!pass.is_read(s)) return;
+    try {
+      read(s);
+    } catch (...) {
+      // Ends the sources that are being read on other threads.
+      turns_.take([&] {
+        if (!error_) error_ = std::current_exception();
+      });
+      throw;
+    }
   });
   pass.end(sources_.size());
 }
@@ -71,6 +83,7 @@ void SourcePasses::know_counts(std::vector<std::uint64_t> counts) {
 
 void SourcePasses::tell(std::size_t points) {
   turns_.take([&] {
+    if (error_) std::rethrow_exception(error_);
     progress_.points += points;
     if (options_.progress) options_.progress(progress_);
   });

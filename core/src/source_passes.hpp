@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <span>
 #include <vector>
@@ -71,8 +72,9 @@ class SourcePasses {
   std::span<const PointSource> sources_;
   const StreamOptions& options_;
   ThreadPool& pool_;
-  Turns turns_;  ///< to change the next
+  Turns turns_;  ///< to change the next two
   StreamProgress progress_;
+  std::exception_ptr error_;           ///< the first of sources that are read at once
   std::vector<std::uint64_t> counts_;  ///< source -> how many points it has; empty in the first pass
   std::vector<std::uint64_t> firsts_;  ///< source -> the number of its first point
 };

@@ -314,7 +314,7 @@ void Stream::run_over_some(const Rows& rows, const Cells& some, const Visit& vis
 /// smaller circumradius. Returns false where no grid fits into the memory.
 bool Stream::fit_grid(double widest) {
   const Box& box = part_.box;
-  widest *= 1 - detail::kSafety;
+  widest *= (1 - detail::kSafety) * (1 - detail::kUneven);
   const double area = (box.max.x - box.min.x) * (box.max.y - box.min.y);
   double radius = std::min(
       widest, detail::kWidestInSpacings * std::sqrt(area / static_cast<double>(part_.source_points)));

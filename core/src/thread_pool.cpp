@@ -38,6 +38,7 @@ void ThreadPool::run(Call call, const void* task, std::uint32_t count, std::size
   task_.store(task, std::memory_order_relaxed);
   taking_part_.store(taking_part, std::memory_order_relaxed);
   tasks_left_.store(count, std::memory_order_relaxed);
+  has_failed_.store(false, std::memory_order_relaxed);
   for (std::size_t t = 0; t < taking_part; ++t) {
     const std::uint64_t begin = std::uint64_t{count} * t / taking_part;
     const std::uint64_t end = std::uint64_t{count} * (t + 1) / taking_part;
@@ -64,11 +65,14 @@ void ThreadPool::work(std::size_t thread, std::uint32_t job) {
       if (!share.left.compare_exchange_weak(left, left - 1, std::memory_order_acquire)) continue;
       const std::uint32_t end = share.end.load(std::memory_order_relaxed);
       try {
-        call_.load(std::memory_order_relaxed)(task_.load(std::memory_order_relaxed), thread,
-                                              end - static_cast<std::uint32_t>(left));
+        if (!has_failed_.load(std::memory_order_relaxed)) {
+          call_.load(std::memory_order_relaxed)(task_.load(std::memory_order_relaxed), thread,
+                                                end - static_cast<std::uint32_t>(left));
+        }
       } catch (...) {
         const std::lock_guard lock(error_mutex_);
         if (!error_) error_ = std::current_exception();
+        has_failed_.store(true, std::memory_order_relaxed);
       }
       ++done;
       left = share.left.load(std::memory_order_relaxed);

@@ -70,8 +70,8 @@ class ThreadPool {
   void use(unsigned threads) { used_ = std::min(threads, kMostThreads); }
   unsigned threads() const { return used_; }
 
-  /// task(i) for every i below `count`, in any order and on any of the threads. Returns when all are done; if
-  /// any threw, throws the first of these exceptions.
+  /// task(i) for every i below `count`, in any order and on any of the threads. Returns when all are done. If
+  /// one throws, those that have not begun are left out, and this throws the first exception.
   template <class Task>
   void for_each(std::size_t count, const Task& task) {
     for_each_by_thread(count, used_, [&task](std::size_t, std::size_t i) { task(i); });
@@ -114,6 +114,7 @@ class ThreadPool {
   std::vector<Share> shares_;  ///< of the tasks: the caller's, then one of each started thread
   std::exception_ptr error_;
   std::mutex error_mutex_;
+  std::atomic<bool> has_failed_ = false;                    ///< in this job
   alignas(kCacheLine) std::atomic<std::uint32_t> job_ = 0;  ///< the number of the last one
   alignas(kCacheLine) std::atomic<std::uint32_t> tasks_left_ = 0;
 };

@@ -119,6 +119,7 @@ class Widening {
   Widening(Extractor& extractor, std::span<const Point> points, const Options& options,
            const std::function<void()>& on_step)
       : extractor_(extractor), options_(options), on_step_(on_step) {
+    detail::checked_limits(options_);  // before the points are triangulated in vain
     extractor_.triangulate(points, options_.threads);
     points_ = for_predicates(points, scaled_);
   }

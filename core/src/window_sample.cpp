@@ -392,8 +392,9 @@ void WindowSample::place_windows(std::uint64_t points, std::size_t windows, doub
   }
 }
 
-/// Returns how many points were put into windows; ends where that is more than `most`. is_reached(cell):
-/// whether a window reaches it. for_each_window(cell, visit) calls visit(window) for those.
+/// Returns how many points were put into windows; where that is more than `most` they are of no use, and a
+/// share keeps no more than that. is_reached(cell): whether a window reaches it. for_each_window(cell, visit)
+/// calls visit(window) for those.
 template <class IsReached, class ForEachWindow>
 std::size_t WindowSample::gather(const PointPasses& points, std::size_t most, const IsReached& is_reached,
                                  const ForEachWindow& for_each_window) {

@@ -1,77 +1,27 @@
 // Pictures for the invented run of tests/invented_run.cpp, in the format of pictures.jsonl.
 //
-// California has its outline and results that are made up from it. Hawaii is a square, and every result the same square
-// moved to the right by an eighth, so that it is known which pixels are missing and which are too many. With 64,000 points it
-// has no truth.
+// Every ground truth is the same square, with holes one with a square hole, and every result the truth moved to the right: on
+// Hawaii by an eighth, so that it is known which pixels are missing and which are too many, on California by more for a larger
+// error. Hawaii with 64,000 points has no truth.
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
-const GRID = 65535;
-
-/** Where the made-up square is, and where its results are, in steps of the grid. */
+/** Where the square is, and how far its results on Hawaii are moved, in steps of the grid. */
 export const SQUARE = { low: 12288, high: 53248, moved: 5120 };
 
-/** Numbers from 0 up to 1, the same in every run: a Weyl sequence. */
-function weyl(seed) {
-  let state = seed;
-  return () => (state = (state + 0.6180339887498949) % 1);
-}
+const HOLE = [26000, 26000, 26000, 40000, 40000, 40000, 40000, 26000];
 
-function california() {
-  const file = new URL("../../datasets/shapes/ca.geojson", import.meta.url);
-  const { coordinates } = JSON.parse(readFileSync(file)).geometry;
-  const polygons = coordinates.map((polygon) => polygon.map((ring) => ring.slice(0, -1)));
-  const all = polygons.flat(2);
-  const low = [0, 1].map((axis) => Math.min(...all.map((vertex) => vertex[axis])));
-  const side = Math.max(...[0, 1].map((axis) => Math.max(...all.map((vertex) => vertex[axis])) - low[axis]));
-  const snap = (ring) => ring.flatMap(([x, y]) => [x - low[0], y - low[1]].map((value) => Math.round((value / side) * GRID)));
-  return polygons.map((polygon) => polygon.map(snap));
-}
-
-function square(shift) {
+function square(has_hole, moved = 0) {
   const { low, high } = SQUARE;
-  return [[[low + shift, low, high + shift, low, high + shift, high, low + shift, high]]];
+  const shell = [low, low, high, low, high, high, low, high];
+  const rings = has_hole ? [shell, HOLE] : [shell];
+  return [rings.map((ring) => ring.map((value, k) => (k % 2 ? value : value + moved)))];
 }
 
-/** A hole about the middle of California's largest polygon. */
-function with_hole(polygons) {
-  const largest = polygons.reduce((a, b) => (b[0].length > a[0].length ? b : a));
-  const hole = Array.from({ length: 24 }, (_, k) => [
-    Math.round(26000 + 5000 * Math.cos((-2 * Math.PI * k) / 24)),
-    Math.round(36000 + 5000 * Math.sin((-2 * Math.PI * k) / 24)),
-  ]).flat();
-  return polygons.map((polygon) => (polygon === largest ? [...polygon, hole] : polygon));
-}
-
-/** Every vertex moved by up to `size` steps. */
-function shaken(polygons, size, seed) {
-  const random = weyl(seed);
-  return polygons.map((polygon) => polygon.map((ring) => ring.map((value) => Math.round(value + size * (2 * random() - 1)))));
-}
-
-/** Even-odd test. */
-function inside(polygons, x, y) {
-  const crossings = (ring) => {
-    let odd = false;
-    for (let k = 0, j = ring.length - 2; k < ring.length; j = k, k += 2) {
-      if (
-        ring[k + 1] > y !== ring[j + 1] > y &&
-        x < ring[k] + ((y - ring[k + 1]) * (ring[j] - ring[k])) / (ring[j + 1] - ring[k + 1])
-      )
-        odd = !odd;
-    }
-    return odd;
-  };
-  return polygons.some((polygon) => polygon.filter(crossings).length % 2 === 1);
-}
-
-function points_in(polygons, count) {
-  const points = [];
-  for (let k = 0; points.length < 2 * count; ++k) {
-    const [x, y] = [0.7548776662466927, 0.5698402909980532].map((step) => Math.round(((k * step) % 1) * GRID));
-    if (inside(polygons, x, y)) points.push(x, y);
-  }
-  return points;
+/** Evenly over the square and its hole. */
+function points(count) {
+  const place = (k, step) => Math.round(SQUARE.low + ((k * step) % 1) * (SQUARE.high - SQUARE.low));
+  return Array.from({ length: count }, (_, k) => [place(k, 0.7548776662466927), place(k, 0.5698402909980532)]).flat();
 }
 
 function lines_of(report) {
@@ -82,21 +32,19 @@ function lines_of(report) {
     cases.get(name).push(run);
   }
   return [...cases].flatMap(([name, runs]) => {
-    const hawaii = runs[0].dataset === "hi";
-    const outline = california();
-    const truth = hawaii ? square(0) : runs[0].holes ? with_hole(outline) : outline;
-    const result = (run) =>
-      hawaii ? square(SQUARE.moved) : shaken(truth, 9000 * (run.metrics.l2 ?? 0.05), run.method.length / 20);
+    const { dataset, dataset_sha256, n, holes } = runs[0];
+    const hawaii = dataset === "hi";
+    const moved = (run) => (hawaii ? SQUARE.moved : Math.round(30000 * run.metrics.l2));
     return [
       {
         kind: "case",
         case: name,
-        dataset_sha256: runs[0].dataset_sha256,
+        dataset_sha256,
         origin: [0, 0],
         step: 0.01,
-        points_total: runs[0].n,
-        points: points_in(truth, Math.min(runs[0].n, 4000)),
-        ground_truth: hawaii && runs[0].n === 64000 ? [] : truth,
+        points_total: n,
+        points: points(Math.min(n, 4000)),
+        ground_truth: hawaii && n === 64000 ? [] : square(holes),
       },
       ...runs
         .filter((run) => run.output_sha256)
@@ -107,7 +55,7 @@ function lines_of(report) {
           id: run.id,
           output_sha256: run.output_sha256,
           l2: run.metrics.l2 ?? null,
-          polygons: result(run),
+          polygons: square(holes, moved(run)),
         })),
     ];
   });

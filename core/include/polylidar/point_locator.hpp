@@ -16,7 +16,8 @@ namespace polylidar {
 /// threads at the same time are safe.
 class PointLocator {
  public:
-  /// O(m) time and memory for m edges. An empty shape contains nothing.
+  /// O(m) time and memory for m edges. An empty shape contains nothing. Throws std::invalid_argument if a
+  /// coordinate is not finite or larger than 2^150.
   explicit PointLocator(const MultiPolygon& shape);
 
   /// Whether `point` lies inside the shape by the even-odd rule, or on one of its rings: the shape is closed,
