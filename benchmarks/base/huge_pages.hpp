@@ -10,7 +10,8 @@
 namespace hullbench {
 
 /// The environment variable by which the GNU C library, from 2.35 on, is told to ask for them; older ones
-/// pass over what they do not know. A runtime with a heap of its own (Java, Node) has a switch of its own.
+/// pass over what they do not know. Java has a heap and a switch of its own, which its manifest sets; Node's
+/// heap has no switch.
 inline constexpr std::string_view kTunablesVariable = "GLIBC_TUNABLES";
 
 /// What workers get as GLIBC_TUNABLES where the harness itself has `own` (empty: nothing): the same and

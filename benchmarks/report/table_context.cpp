@@ -14,10 +14,11 @@
 namespace hullbench::report {
 namespace {
 
-/// Median and median absolute deviation, with the median's number of decimals.
+/// Median and, of three or more times, median absolute deviation, with the median's number of decimals.
 table::Cell time_cell(const std::vector<std::int64_t>& nanoseconds) {
+  constexpr std::size_t kFewest = 3;
   table::Cell cell = median_cell(nanoseconds);
-  if (cell.value)
+  if (cell.value && nanoseconds.size() >= kFewest)
     cell.spread = {statistics::median_absolute_deviation(nanoseconds) / 1e6, cell.value->decimals};
   return cell;
 }
