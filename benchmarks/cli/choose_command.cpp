@@ -94,9 +94,7 @@ std::string quoted(const std::string& word) {
 }
 
 std::string shell_line(const Words& words) {
-  std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : " ") + quoted(word);
-  return line;
+  return joined(words, " ", quoted);
 }
 
 /// `file` so that no program takes it for an option.

@@ -24,8 +24,7 @@ ExitCode print_league(const LeagueCommand& command) {
   std::vector<json> reports;
   for (const fs::path& folder : command.runs) {
     check_run_folder(folder);
-    const auto runs = record::is_suite(folder) ? record::suite_runs(folder) : std::vector{folder};
-    for (const fs::path& run : runs) reports.push_back(record::load_run(run));
+    for (const fs::path& run : record::runs_in(folder)) reports.push_back(record::load_run(run));
   }
   if (std::ranges::all_of(reports, [](const json& report) { return report.at("runs").empty(); })) {
     std::cerr << "hullbench: none of the folders has a finished run; there is nothing to judge\n";

@@ -22,7 +22,7 @@ struct ReportCommand {
 ExitCode write_reports(const ReportCommand& command) {
   check_run_folder(command.run);
   const bool suite = record::is_suite(command.run);
-  for (const fs::path& run : suite ? record::suite_runs(command.run) : std::vector<fs::path>{command.run}) {
+  for (const fs::path& run : record::runs_in(command.run)) {
     const fs::path folder = suite ? command.out / run.filename() : command.out;
     make_writable_folder(folder);
     if (fs::equivalent(folder, run))

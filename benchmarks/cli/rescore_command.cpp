@@ -37,11 +37,9 @@ void check_out(const RescoreCommand& command) {
 ExitCode rescore(const RescoreCommand& command) {
   check_run_folder(command.run);
   check_out(command);
-  const bool of_suite = record::is_suite(command.run);
-  const std::vector<fs::path> folders = of_suite ? record::suite_runs(command.run) : std::vector{command.run};
   std::vector<run::MergedRun> runs;
   std::size_t scored = 0;
-  for (const fs::path& folder : folders) {
+  for (const fs::path& folder : record::runs_in(command.run)) {
     run::Rescored rescored =
         run::rescore(folder, allowed_cores(), {default_data_directory(), command.recordings});
     const std::string name = rescored.header.at("plan").at("name").get<std::string>();
@@ -62,7 +60,7 @@ ExitCode rescore(const RescoreCommand& command) {
     return kExitNothing;
   }
   make_writable_folder(command.out);
-  if (of_suite) {
+  if (record::is_suite(command.run)) {
     write_suite(runs, command.out);
   } else {
     write_run(runs.front(), command.out);

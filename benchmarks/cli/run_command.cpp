@@ -9,6 +9,7 @@
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/cores.hpp"
 #include "benchmarks/base/utc_now.hpp"
+#include "benchmarks/base/words.hpp"
 #include "benchmarks/cli/listing.hpp"
 #include "benchmarks/cli/options.hpp"
 #include "benchmarks/cli/run_folder.hpp"
@@ -212,14 +213,12 @@ class Measuring {
   /// "table 1 of 2, pass 1 of 3", with what there are several of.
   std::string where(const Task& task, int pass) const {
     const int passes = task.experiment->plan.passes;
-    std::string text;
+    std::vector<std::string> parts;
     if (tasks_.size() > 1)
-      text = "table " + std::to_string(&task - tasks_.data() + 1) + " of " + std::to_string(tasks_.size());
-    if (passes > 1) {
-      text += (text.empty() ? "" : ", ");
-      text += "pass " + std::to_string(pass) + " of " + std::to_string(passes);
-    }
-    return text;
+      parts.push_back("table " + std::to_string(&task - tasks_.data() + 1) + " of " +
+                      std::to_string(tasks_.size()));
+    if (passes > 1) parts.push_back("pass " + std::to_string(pass) + " of " + std::to_string(passes));
+    return joined(parts, ", ");
   }
 
   /// Finds the steps too, one for each section.

@@ -16,13 +16,11 @@
 namespace hullbench::cli {
 
 void check_run_folder(const fs::path& folder) {
-  const bool is_suite = record::is_suite(folder);
-  if (!is_suite && !fs::exists(folder / record::kHeaderFile)) {
+  if (!record::is_suite(folder) && !fs::exists(folder / record::kHeaderFile)) {
     throw ConfigurationError("there is no run in " + folder.string() +
                              "; give a run's folder, or measure one with 'hullbench run'");
   }
-  for (const fs::path& run : is_suite ? record::suite_runs(folder) : std::vector{folder})
-    record::check_run(run);
+  for (const fs::path& run : record::runs_in(folder)) record::check_run(run);
 }
 
 std::size_t say_plans_without_run(const fs::path& folder) {

@@ -10,6 +10,7 @@
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/cores.hpp"
 #include "benchmarks/base/files.hpp"
+#include "benchmarks/base/words.hpp"
 #include "benchmarks/cli/options.hpp"
 #include "benchmarks/cli/terminal.hpp"
 #include "benchmarks/cli/tool_description.hpp"
@@ -96,9 +97,7 @@ std::vector<std::string> part_of(const std::vector<std::string>& methods,
 
 fs::path folder_of(const TuneCommand& command, const std::vector<plan::Plan>& plans) {
   if (command.out) return *command.out;
-  std::string name;
-  for (const plan::Plan& plan : plans) name += (name.empty() ? "" : "+") + plan.name;
-  return fs::path("results") / "tune" / name;
+  return fs::path("results") / "tune" / joined(plans, "+", &plan::Plan::name);
 }
 
 /// "sweep.jsonl", "sweep-2-of-3.jsonl"

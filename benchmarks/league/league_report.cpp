@@ -333,12 +333,11 @@ std::string league_results(const json& league, const std::string& folder) {
                      {table::words("Protocol"), table::words("Method"), "Cases", "Failures",
                       table::with_unit("L2 median", "%"), "Hole F1 mean"}};
   std::map<std::string, std::size_t> shown;
-  std::string protocols;
+  std::vector<std::string> protocols;
   for (const json& entry : league.at("methods")) {
     const std::string protocol = entry.at("protocol").get<std::string>();
     if (entry.at("cases") == 0 || ++shown[protocol] > kFirst) continue;
-    if (shown[protocol] == 1)
-      protocols += (protocols.empty() ? "" : "; ") + protocol + ", " + title_of_protocol(protocol);
+    if (shown[protocol] == 1) protocols.push_back(protocol + ", " + title_of_protocol(protocol));
     table.add_row({protocol, entry.at("title").get<std::string>(), entry.at("cases").get<std::size_t>(),
                    failures_cell(entry), median_cell(entry, "l2", 100), mean_cell(entry, "hole_f1")});
   }
@@ -348,7 +347,7 @@ std::string league_results(const json& league, const std::string& folder) {
   out << '\n';
   const std::string file = folder + "/" + kLeagueTablesFile;
   table::print_item("All of the league's tables: [" + file + "](" + file + ").", out);
-  table::print_item("Parameters: " + protocols + ".", out);
+  table::print_item("Parameters: " + joined(protocols, "; ") + ".", out);
   table::print_item(
       "L2 as a part of the ground truth's area; a failure is infinitely bad. Hole F1 is of the cases whose "
       "ground truth has holes. In brackets 95 % intervals by shape.",

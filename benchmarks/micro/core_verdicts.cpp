@@ -197,10 +197,6 @@ std::string verdict_text(const VerdictLine& line) {
   return "";
 }
 
-table::Cell range_cell(double low, double high) {
-  return table::Range{table::Number(low), table::Number(high)};
-}
-
 std::size_t count(const std::vector<VerdictLine>& lines, Verdict verdict) {
   return static_cast<std::size_t>(
       std::ranges::count_if(lines, [=](const VerdictLine& line) { return line.verdict == verdict; }));
@@ -243,8 +239,7 @@ void print_verdicts(const std::vector<VerdictLine>& lines, std::ostream& out) {
                      {table::words("median ratio"), "value", "interval", "goal", table::words("verdict")}};
   for (const VerdictLine& line : lines) {
     table.add_row({line.what, line.value ? table::Number(*line.value) : table::Cell(""),
-                   line.interval ? range_cell(line.interval->low, line.interval->high) : "", line.goal,
-                   verdict_text(line)});
+                   line.interval ? table::range_cell(line.interval) : "", line.goal, verdict_text(line)});
   }
   table::print_markdown(table, out);
   out << "\n"
@@ -263,7 +258,8 @@ void print_measurements(const Measurements& measurements, std::ostream& out) {
     if (measured.times.empty()) continue;
     const double middle = statistics::median(measured.times);
     const auto [least, most] = std::ranges::minmax_element(measured.times);
-    table.add_row({benchmark, table::Number(middle / 1e6), range_cell(*least / 1e6, *most / 1e6),
+    table.add_row({benchmark, table::Number(middle / 1e6),
+                   table::Range{table::Number(*least / 1e6), table::Number(*most / 1e6)},
                    table::Number(middle / points_of(benchmark)),
                    measured.peak_bytes ? table::Number(*measured.peak_bytes) : table::Cell("")});
   }

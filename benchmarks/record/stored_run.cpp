@@ -119,4 +119,8 @@ std::vector<fs::path> suite_runs(const fs::path& folder) {
   return runs;
 }
 
+std::vector<fs::path> runs_in(const fs::path& folder) {
+  return is_suite(folder) ? suite_runs(folder) : std::vector{folder};
+}
+
 }  // namespace hullbench::record

@@ -55,4 +55,7 @@ json read_suite(const fs::path& folder);
 /// Throws ConfigurationError naming the file when suite.json cannot be read.
 std::vector<fs::path> suite_runs(const fs::path& folder);
 
+/// The folders of the runs in `folder`: itself, or those of its suite, as suite_runs() gives them.
+std::vector<fs::path> runs_in(const fs::path& folder);
+
 }  // namespace hullbench::record

@@ -11,6 +11,7 @@
 #include "benchmarks/report/ratios.hpp"
 #include "benchmarks/statistics/judge.hpp"
 #include "benchmarks/statistics/statistics.hpp"
+#include "benchmarks/table/cell.hpp"
 
 namespace hullbench::report {
 namespace {

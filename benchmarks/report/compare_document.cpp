@@ -39,11 +39,6 @@ table::Cell ratio_cell(const std::optional<double>& ratio) {
   return ratio ? ratio_number(*ratio) : table::Cell();
 }
 
-table::Cell range_cell(const std::optional<statistics::Interval>& interval) {
-  if (!interval) return {};
-  return table::Range{ratio_number(interval->low), ratio_number(interval->high)};
-}
-
 table::Cell time_cell(const record::RunRecord& run) {
   if (is_measured(run) && run.time_ns.empty()) return {};
   return is_measured(run) ? milliseconds(statistics::median(run.time_ns)) : table::Cell(failure_name(run));
@@ -67,7 +62,8 @@ table::Table changes_table(const RunsCompared& compared, const ComparedSide& a) 
                      {table::words("Method"), "Pairs", "Median of B / A", "95 %", "B faster", "B slower"}};
   for (const MethodChange& method : compared.methods) {
     table.add_row({method_label(a.reports, method.method, method.protocol), method.pairs,
-                   ratio_cell(method.ratio), range_cell(method.interval), method.faster, method.slower});
+                   ratio_cell(method.ratio), table::range_cell(method.interval, ratio_number), method.faster,
+                   method.slower});
   }
   table.remarks.emplace_back(
       "Below 1, B is faster. The interval is a bootstrap of whole shapes (a data set, with or without "
@@ -121,8 +117,9 @@ table::Table pairs_table(const RunsCompared& compared, bool every_pair) {
     const auto error_b = metric(pair.b, "l2");
     table.add_row({pair.a.name, time_cell(pair.a), time_cell(pair.b),
                    pair.time ? ratio_number(pair.time->ratio) : table::Cell(),
-                   pair.time ? range_cell(pair.time->interval) : table::Cell(), to_string(pair.change),
-                   percent_cell(error_a), percent_cell(error_b), difference_cell(error_a, error_b)});
+                   pair.time ? table::range_cell(pair.time->interval, ratio_number) : table::Cell(),
+                   to_string(pair.change), percent_cell(error_a), percent_cell(error_b),
+                   difference_cell(error_a, error_b)});
   }
   table.remarks.push_back(pairs_remark(compared));
   if (left_out > 0) {
@@ -136,18 +133,10 @@ std::string recorded(const Words& words) {
   return words.empty() ? "not recorded" : joined(words, ", ");
 }
 
-/// Where the rows of a side were taken: by themselves, or by their run where a row does not say; nothing
-/// where neither does.
-Words machines_of(const ComparedSide& side) {
+/// Where the rows of a side were taken, those without times too.
+Words machines_of_side(const ComparedSide& side) {
   Words result;
-  for (const json& report : side.reports) {
-    const std::string own = report.value(json::json_pointer("/environment/machine_id"), std::string());
-    for (const json& run : report.at("runs")) {
-      std::string machine = run.value("machine", std::string());
-      if (machine.empty()) machine = own;
-      if (!machine.empty()) result.insert(std::move(machine));
-    }
-  }
+  for (const json& report : side.reports) result.merge(machines_of(report, false));
   return result;
 }
 
@@ -167,8 +156,8 @@ void add_difference(const std::string& what, const Words& a, const Words& b,
 }
 
 void add_machines(const ComparedSide& a, const ComparedSide& b, std::vector<std::string>& notes) {
-  const Words of_a = machines_of(a);
-  const Words of_b = machines_of(b);
+  const Words of_a = machines_of_side(a);
+  const Words of_b = machines_of_side(b);
   if (of_a == of_b && of_a.size() == 1) return;
   notes.push_back(
       (of_a.empty() || of_b.empty() ? "WHERE THE TIMES WERE TAKEN IS NOT KNOWN (A: "

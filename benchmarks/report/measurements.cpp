@@ -72,15 +72,15 @@ std::vector<double> all_values(const Runs& runs, const std::string& name) {
   return result;
 }
 
-std::set<std::string> machines_of(const json& report) {
+std::set<std::string> machines_of(const json& report, bool with_times) {
+  const std::string own = report.value(json::json_pointer("/environment/machine_id"), std::string());
   std::set<std::string> machines;
   for (const json& line : report.at("runs")) {
-    if (line.at("time_ns").empty()) continue;
+    if (with_times && line.at("time_ns").empty()) continue;
     const std::string machine = line.value("machine", std::string());
-    // Only a row that does not say its machine needs the report's description of one.
-    machines.insert(!machine.empty() ? machine
-                                     : report.at("environment").at("machine_id").get<std::string>());
+    machines.insert(machine.empty() ? own : machine);
   }
+  machines.erase("");
   return machines;
 }
 

@@ -71,8 +71,9 @@ std::optional<double> metric(const record::RunRecord& run, const std::string& na
 /// That number of each of `runs` that has it.
 std::vector<double> all_values(const Runs& runs, const std::string& name);
 
-/// The machines on which the rows of `report` that have times were measured.
-std::set<std::string> machines_of(const json& report);
+/// The machines on which the rows of `report`, or those of them that have times, were measured: as the row
+/// says, or else the report's environment. A row of which neither says it has none.
+std::set<std::string> machines_of(const json& report, bool with_times = true);
 
 /// The builds of the program with which `report` was measured, by the SHA-256 of the binary: those of the
 /// runs that were merged into it, or else its own, if it says one.

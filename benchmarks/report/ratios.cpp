@@ -129,9 +129,4 @@ std::optional<statistics::Interval> interval_over(std::span<const CaseRatios> ca
   return statistics::nested_median_interval(clusters);
 }
 
-table::Cell interval_cell(const std::optional<statistics::Interval>& interval) {
-  if (!interval) return {};
-  return table::Range{table::Number(interval->low), table::Number(interval->high)};
-}
-
 }  // namespace hullbench::report

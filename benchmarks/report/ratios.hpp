@@ -13,7 +13,6 @@
 
 #include "benchmarks/report/measurements.hpp"
 #include "benchmarks/statistics/bootstrap.hpp"
-#include "benchmarks/table/cell.hpp"
 
 namespace hullbench::report {
 
@@ -70,8 +69,5 @@ struct CaseRatios {
 /// Of the median of the cases' medians, nested (bootstrap.hpp); its clusters are the base shapes
 /// (datasets.hpp), each with and without holes and sampled in any way.
 std::optional<statistics::Interval> interval_over(std::span<const CaseRatios> cases);
-
-/// The interval; nothing when there is none.
-table::Cell interval_cell(const std::optional<statistics::Interval>& interval);
 
 }  // namespace hullbench::report

@@ -86,7 +86,10 @@ class SetTables {
         cells.push_back(runs.empty() ? table::Cell() : read(*runs.front()));
         any = any || cells.back().value;
       }
-      if (is_missing(all_runs(which))) say_not_installed_once(cells, which);
+      if (const Runs runs = all_runs(which); is_missing(runs)) {
+        say_not_installed(cells);
+        cells[0].notes = {context_.notes.number(sentence(runs.front()->detail))};
+      }
       if (any || all_sets) table.add_row(std::move(cells));
     }
     return table;
@@ -103,13 +106,6 @@ class SetTables {
       for (const record::RunRecord* run : context_.measurements.find(line, which)) runs.push_back(run);
     }
     return runs;
-  }
-
-  void say_not_installed_once(std::vector<table::Cell>& cells, const Case& which) {
-    const record::RunRecord& run = *all_runs(which).front();
-    std::fill(cells.begin() + 1, cells.end(), table::Cell(""));
-    cells[1] = "not installed";
-    cells[0].notes = {context_.notes.number(sentence(run.detail))};
   }
 
   TableContext& context_;

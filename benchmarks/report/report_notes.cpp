@@ -58,10 +58,9 @@ void add_how_to_read(bool times, Sentences& notes) {
                            "each case passes and rounds; of few shapes it is a rough one, and of a single "
                            "shape it has nothing of what varies between shapes. \"> 3\": it has no upper end."
                          : ""));
-  std::string protocols;
-  for (const record::Protocol& protocol : record::protocols())
-    protocols += (protocols.empty() ? "" : "; ") + protocol.name + ", " + protocol.chosen;
-  notes.push_back("The protocol in brackets says who chose the parameters: " + protocols + ".");
+  const auto text_of = [](const record::Protocol& one) { return one.name + ", " + one.chosen; };
+  notes.push_back("The protocol in brackets says who chose the parameters: " +
+                  joined(record::protocols(), "; ", text_of) + ".");
   notes.push_back(
       "A cell with a word is a run without a result: its status, or \"invalid\" for a result that is not a "
       "valid multipolygon. A dash: not run or not defined.");
@@ -220,12 +219,12 @@ void add_parts(const json& report, Sentences& notes) {
 }
 
 void add_totals(const json& report, Sentences& notes) {
-  std::string counts;
+  std::vector<std::string> counts;
   for (const record::Status status : record::kAllStatuses) {
     const json& count = report.at("summary").at("totals").at(to_string(status));
-    if (count != 0) counts += (counts.empty() ? "" : ", ") + count.dump() + " " + to_string(status);
+    if (count != 0) counts.push_back(count.dump() + " " + to_string(status));
   }
-  notes.push_back("Rows by status: " + (counts.empty() ? std::string("none") : counts) + ".");
+  notes.push_back("Rows by status: " + (counts.empty() ? "none" : joined(counts, ", ")) + ".");
   const std::size_t resumed = report.value("resumed", json::array()).size();
   if (resumed > 0)
     notes.push_back("The run was interrupted and gone on with, times: " + std::to_string(resumed) + ".");

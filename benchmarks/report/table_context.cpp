@@ -54,8 +54,7 @@ std::string failure_text(const TableContext& context, const Line& line, const st
   if (first.status == record::Status::kNotInstalled) {
     return not_installed_text(context.report, label(context, line), line.method, first.detail);
   }
-  std::string sizes;
-  for (const record::RunRecord* run : runs) sizes += (sizes.empty() ? "" : ", ") + std::to_string(run->n);
+  const std::string sizes = joined(runs, ", ", [](const auto* run) { return std::to_string(run->n); });
   const std::string shape = hullbench::report::shape_title(context.report, first.dataset, first.holes);
   return label(context, line) + " on " + shape + ", n = " + sizes + ": " + name + ", " +
          sentence(first.detail);
@@ -220,13 +219,15 @@ std::vector<table::Cell> row(TableContext& context, const Line& line, const Shap
   return result;
 }
 
-void say_not_installed_once(std::vector<table::Cell>& cells) {
-  const std::string missing = to_string(record::Status::kNotInstalled);
-  if (!std::all_of(cells.begin() + 1, cells.end(),
-                   [&](const table::Cell& one) { return one.words == missing; }))
-    return;
+void say_not_installed(std::vector<table::Cell>& cells) {
   std::fill(cells.begin() + 1, cells.end(), table::Cell(""));
   cells[1] = "not installed";
+}
+
+void say_not_installed_once(std::vector<table::Cell>& cells) {
+  const std::string missing = to_string(record::Status::kNotInstalled);
+  const auto says_it = [&](const table::Cell& one) { return one.words == missing; };
+  if (std::all_of(cells.begin() + 1, cells.end(), says_it)) say_not_installed(cells);
 }
 
 }  // namespace hullbench::report

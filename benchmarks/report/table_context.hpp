@@ -67,8 +67,9 @@ ErrorKind error_kind(const TableContext& context);
 /// What the cell of one line and case says.
 table::Cell cell(const Runs& runs, Quantity quantity);
 
-/// Of a line's cells, its label first: a method that is not installed says so once instead of in every
-/// column.
+/// Of a row's cells, the label first: "not installed", said once instead of in every column.
+void say_not_installed(std::vector<table::Cell>& cells);
+/// The same where every column says it.
 void say_not_installed_once(std::vector<table::Cell>& cells);
 
 /// A line's cells.

@@ -58,7 +58,7 @@ std::vector<table::Table> shape_tables(TableContext& context, const Shape& shape
 /// Median, interval, least and largest as cells.
 std::vector<table::Cell> ratio_cells(const Ratios& ratios) {
   if (!ratios.median) return std::vector<table::Cell>(4);
-  return {table::Number(*ratios.median), interval_cell(ratios.interval), table::Number(ratios.least),
+  return {table::Number(*ratios.median), table::range_cell(ratios.interval), table::Number(ratios.least),
           table::Number(ratios.most)};
 }
 
@@ -166,7 +166,8 @@ std::optional<table::Table> headline_table(const TableContext& context) {
                               : std::optional(statistics::Interval{number("low"), number("high")});
     table.add_row({label_of(rival), same ? "yes" : "no", rival.at("cases").get<std::size_t>(),
                    rival.at("failures").get<std::size_t>(), table::Number(number("median")),
-                   interval_cell(interval), table::Number(number("least")), table::Number(number("most"))});
+                   table::range_cell(interval), table::Number(number("least")),
+                   table::Number(number("most"))});
   }
   table.remarks.emplace_back(
       "The same polygons, as the records tell: on every case that both solved as many polygons, holes and "

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "benchmarks/base/number_format.hpp"
+#include "benchmarks/base/words.hpp"
 
 namespace hullbench::table {
 namespace {
@@ -38,9 +39,7 @@ std::string Cell::text() const {
 }
 
 std::string Cell::marks() const {
-  std::string result;
-  for (const std::size_t note : notes) result += (result.empty() ? "" : " ") + mark(note);
-  return result;
+  return joined(notes, " ", mark);
 }
 
 std::size_t Notes::number(const std::string& text) {

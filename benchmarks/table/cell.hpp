@@ -67,6 +67,15 @@ struct Cell {
   std::vector<std::size_t> notes;
 };
 
+/// From the `low` to the `high` of an interval, both as `number` gives them; "–" without one.
+template <typename Interval>
+Cell range_cell(
+    const std::optional<Interval>& interval,
+    Number (*number)(double) = [](double end) { return Number(end); }) {
+  if (!interval) return {};
+  return Range{number(interval->low), number(interval->high)};
+}
+
 /// Notes, numbered from 1 in the order in which they were first needed.
 class Notes {
  public:

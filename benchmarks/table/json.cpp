@@ -3,6 +3,7 @@
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/base/names.hpp"
 #include "benchmarks/base/number_format.hpp"
+#include "benchmarks/base/words.hpp"
 #include "benchmarks/table/writers.hpp"
 
 // Written by hand: a row stands on a line, and a number has the digits that the table shows of it.
@@ -41,9 +42,7 @@ std::string column_text(const Column& column) {
 /// "[a,b]"
 template <typename Entries, typename Text>
 std::string list_text(const Entries& entries, const Text& text_of, const std::string& between = ",") {
-  std::string text;
-  for (const auto& entry : entries) text += (text.empty() ? "" : between) + text_of(entry);
-  return "[" + text + "]";
+  return "[" + joined(entries, between, text_of) + "]";
 }
 
 std::string table_text(const Table& table) {
