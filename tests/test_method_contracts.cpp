@@ -54,6 +54,7 @@ const std::vector<Method>& methods() {
   static const Parameters no_ratio = {
       {"length_ratio", kInfinity}, {"max_edge_length", kInfinity}, {"allow_holes", 0}};
   static const Parameters three = {{"c", 3}, {"allow_holes", 0}};
+  static const Parameters three_or_length = {{"c", 3}, {"max_edge_length", kInfinity}, {"allow_holes", 0}};
   // Five standard deviations: no spurious holes at this density.
   static const Parameters filled = {{"c", 5}, {"allow_holes", 0}};
   static const Parameters open = {{"c", 5}, {"allow_holes", 1}};
@@ -77,7 +78,7 @@ const std::vector<Method>& methods() {
        {{"alpha", 0}, {"allow_holes", 0}},
        {},
        {{"alpha", 0.04}, {"allow_holes", 1}}},
-      {{"spatialite", "[0-9].* \\(GEOS .*", kPolygons, ""}, three, open, filled},
+      {{"spatialite", "[0-9].* \\(GEOS .*", kPolygons, ""}, three_or_length, open, filled},
       {{"spatialite_steps", "[0-9].* \\(GEOS .*", kPolygons, "triangulation shape polygon polygon"},
        three,
        open,
