@@ -1,5 +1,6 @@
 // What every adapter must do whatever its method is; adapters/adapter.hpp says it. The tests contract.* try a
-// method's worker, which shows more (benchmarks/run/contract.cpp), but with one set of parameters.
+// method's worker, which shows more (benchmarks/run/contract.cpp), but with one set of parameters, and it may
+// refuse points without an area.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -37,6 +38,13 @@ inline void expect_the_same_bytes_again(const MakeAdapter& make, const Parameter
   EXPECT_EQ(to_wkb(hull_of(*make(), points, parameters)), first);
 }
 
+inline void expect_nothing_without_area(const MakeAdapter& make, const Parameters& parameters) {
+  const auto adapter = make();
+  for (const auto& [name, points] : degenerate_inputs()) {
+    EXPECT_EQ(hull_of(*adapter, points, parameters), MultiPolygon()) << name;
+  }
+}
+
 inline void expect_duplicates_to_be_ignored(const MakeAdapter& make, const Parameters& parameters) {
   const auto adapter = make();
   const std::vector<Point> points = square_points(500, 5, true);
@@ -44,7 +52,6 @@ inline void expect_duplicates_to_be_ignored(const MakeAdapter& make, const Param
   twice.insert(twice.end(), points.begin(), points.end());
   EXPECT_DOUBLE_EQ(polylidar::area(hull_of(*adapter, twice, parameters)),
                    polylidar::area(hull_of(*adapter, points, parameters)));
-  EXPECT_EQ(hull_of(*adapter, {{1, 2}, {3, 4}, {1, 2}, {3, 4}}, parameters), MultiPolygon());
 }
 
 /// `parameters` with each value in turn replaced by one that is not a number or below its range, or with a
@@ -80,6 +87,7 @@ inline void expect_bad_arguments_to_be_refused(const MakeAdapter& make, const Pa
 inline void expect_adapter_contract(const MakeAdapter& make, const Parameters& parameters,
                                     const Parameters& others) {
   expect_the_same_bytes_again(make, parameters, others);
+  for (const Parameters& each : {parameters, others}) expect_nothing_without_area(make, each);
   expect_duplicates_to_be_ignored(make, parameters);
   expect_bad_arguments_to_be_refused(make, parameters);
 }

@@ -97,4 +97,21 @@ inline Parameters parameters_of(const polylidar::Options& options) {
   return parameters;
 }
 
+/// Inputs without an area, each with the name a failing test prints.
+struct Degenerate {
+  const char* name;
+  std::vector<Point> points;
+};
+
+inline std::vector<Degenerate> degenerate_inputs() {
+  return {
+      {"no points", {}},
+      {"one point", {{1, 2}}},
+      {"two points", {{1, 2}, {3, 4}}},
+      {"one point five times", {{1, 2}, {1, 2}, {1, 2}, {1, 2}, {1, 2}}},
+      {"two points, repeated", {{1, 2}, {3, 4}, {1, 2}, {3, 4}}},
+      {"collinear", {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {5, 5}}},
+  };
+}
+
 }  // namespace hullbench::testing

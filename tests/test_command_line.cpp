@@ -190,7 +190,11 @@ TEST_F(CommandLineTest, OutputFolderThatCannotBeWritten) {
 }
 
 TEST_F(CommandLineTest, OutputFolderWithSomethingElse) {
-  expect_refusal(hullbench({"run", plan({500}, 1), "--out", "."}), 2, "holds something else than a run");
+  const std::string small = plan({500}, 1);
+  expect_refusal(hullbench({"run", small, "--out", "."}), 2, "holds something else than a run");
+  EXPECT_EQ(hullbench({"run", small, "--out", "mine"}).code, 0);
+  expect_refusal(hullbench({"run", small, "--out", "mine", "--seed", "2"}), 2, "holds another run");
+  EXPECT_EQ(hullbench({"run", small, "--out", "mine", "--seed", "2", "--force"}).code, 0);
 }
 
 TEST_F(CommandLineTest, FullDisk) {

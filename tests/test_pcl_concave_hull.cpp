@@ -35,6 +35,7 @@ TEST(PclConcaveHull, SaysWhoItIs) {
 TEST(PclConcaveHull, KeepsTheContract) {
   const Parameters parameters = {{"alpha", 0.1}};
   expect_the_same_bytes_again(&make_pcl_concave_hull, parameters, {{"alpha", 0.4}});
+  expect_nothing_without_area(&make_pcl_concave_hull, parameters);
   expect_bad_arguments_to_be_refused(&make_pcl_concave_hull, parameters);
 }
 

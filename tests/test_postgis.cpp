@@ -205,8 +205,10 @@ TEST_F(LegacyPostgis, IsThePapersMethodBesideTheCurrentOne) {
   EXPECT_GT(polylidar::area(hull), 0.8 * convex);
 }
 
-TEST_F(LegacyPostgis, RefusesBadArguments) {
-  expect_bad_arguments_to_be_refused(&make_postgis_legacy, {{"target_percent", 0.95}});
+TEST_F(LegacyPostgis, KeepsTheContract) {
+  const Parameters parameters = {{"target_percent", 0.95}};
+  expect_nothing_without_area(&make_postgis_legacy, parameters);
+  expect_bad_arguments_to_be_refused(&make_postgis_legacy, parameters);
 }
 
 TEST_F(Postgis, HasOnlyTheLegacyMethodOnAnOldServer) {

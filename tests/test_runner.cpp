@@ -378,12 +378,17 @@ TEST_F(RunnerTest, EveryMisbehaviourIsARowAndTheOthersAreMeasured) {
 
 TEST_F(RunnerTest, AnAcceptedStatusIsNoFailure) {
   plan::Plan plan = plan_of({"says_error", "good"}, 1);
+  EXPECT_EQ(exit_code(measure(plan)), 4);
+  fs::remove_all(folder_.path() / "run");
   plan.accepted = {"error"};
   const run::RunResult result = measure(plan);
   EXPECT_EQ(exit_code(result), 0);
   EXPECT_EQ(result.accepted, 1);
   EXPECT_EQ(result.counts.at(record::Status::kOk), 1);
   EXPECT_FALSE(result.counts.contains(record::Status::kError));
+  fs::remove_all(folder_.path() / "run");
+  plan.accepted = {"crash"};
+  EXPECT_EQ(exit_code(measure(plan)), 4);
 }
 
 TEST(ExitCode, RowsThatAreAllAcceptedAreMeasured) {

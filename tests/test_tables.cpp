@@ -228,6 +228,10 @@ TEST(Tables, ARowSaysItsNumberOfRepetitionsWhereItIsNotTheUsualOne) {
   ASSERT_EQ(run["method"], "spatialite");
   run["time_ns"] = {1000000, 1000000};
   expect_says(markdown_of(report), "| SpatiaLite (paper), 1 to 2 repetitions ");
+  // Of fewer than three times nobody knows how they scatter.
+  EXPECT_EQ(text.find("1.00 ±"), std::string::npos);
+  run["time_ns"] = {1000000, 1000000, 1000000};
+  expect_says(markdown_of(report), "1.00 ±0.00");
 }
 
 TEST(Tables, RowsOfAnUnsteadyMachineAreCounted) {

@@ -106,7 +106,7 @@ void check_numbers(const StreamShard& all) {
 
 StreamedHull hull_of_part(const StreamShard& all, unsigned threads) {
   check_numbers(all);
-  if (all.source_points <= detail::kMostPointsInMemory) return detail::hull_in_memory(all, threads);
+  if (all.source_points <= detail::kAlwaysInMemory) return detail::hull_in_memory(all, threads);
   if (detail::is_flat(all.box)) return detail::hull_without_area(all);
   if (!detail::is_any_limit_given(all.options)) throw do_not_fit();  // what is dropped cannot be known
   const Limits limits = detail::checked_limits(all.options);

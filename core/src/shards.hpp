@@ -16,7 +16,7 @@
 namespace polylidar::detail {
 
 /// Up to so many points are put into memory whatever the options say, all by the first shard.
-inline constexpr std::uint64_t kMostPointsInMemory = std::uint64_t{1} << 16U;
+inline constexpr std::uint64_t kAlwaysInMemory = std::uint64_t{1} << 16U;
 
 /// Whether all points are on a line parallel to an axis, where a grid has no cells.
 inline bool is_flat(const Box& box) {

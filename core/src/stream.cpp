@@ -29,7 +29,7 @@ namespace {
 using detail::Bitmap;
 using detail::Grid;
 using detail::has_changed;
-using detail::kMostPointsInMemory;
+using detail::kAlwaysInMemory;
 
 /// Thrown in the first pass, where the points are not those of StreamOptions::expected.
 class NotAsExpected : public std::exception {};
@@ -574,7 +574,7 @@ void Stream::find_points(bool keeps_map) {
 
 StreamShard Stream::find_part() {
   find_extents(true);
-  if (part_.source_points <= kMostPointsInMemory) {
+  if (part_.source_points <= kAlwaysInMemory) {
     if (part_.shard.number > 1) return std::move(part_);  // the first has all of them
     take_all();
     part_.numbers.resize(part_.points.size());
@@ -658,7 +658,7 @@ StreamedHull Stream::hull_by_limits() {
 /// takes that back if the points are others.
 void Stream::begin_as_expected() {
   const std::optional<ExpectedPoints>& expected = stream_options_.expected;
-  if (!expected || expected->count <= kMostPointsInMemory || !is_usual(expected->box)) return;
+  if (!expected || expected->count <= kAlwaysInMemory || !is_usual(expected->box)) return;
   part_.source_points = expected->count;
   part_.box = expected->box;
   if (detail::is_any_limit_given(part_.options)) {
@@ -682,7 +682,7 @@ void Stream::begin_as_expected() {
 StreamedHull Stream::find_hull() {
   begin_as_expected();
   if (is_first_pass_) find_extents(false);
-  if (part_.source_points <= kMostPointsInMemory) return hull_in_memory();
+  if (part_.source_points <= kAlwaysInMemory) return hull_in_memory();
   check_scale();
   if (detail::is_flat(part_.box)) return detail::hull_without_area(part_);
   if (detail::is_any_limit_given(part_.options)) return hull_by_limits();

@@ -128,16 +128,18 @@ class ColumnChoice {
   Columns choose(std::string_view wanted, std::string_view by) const {
     Columns columns;
     // Years may be names of columns, too.
-    columns.with_header = std::none_of(row_.begin(), row_.end(), is_number) || choose_by_known_names(columns);
-    columns.is_named = columns.is_named && wanted.empty();
+    const bool has_known_names = choose_by_known_names(columns);
+    columns.with_header = has_known_names || std::none_of(row_.begin(), row_.end(), is_number);
     if (!by.empty()) {
       columns.by = place_of(by, columns);
       if (!columns.by) refuse_by(by);
     }
-    if (wanted.empty()) {
-      if (columns.with_header && !choose_by_known_names(columns)) choose_the_only_two(columns);
-    } else {
+    if (!wanted.empty()) {
       choose_by(wanted, columns);
+    } else if (has_known_names) {
+      columns.is_named = true;
+    } else if (columns.with_header) {
+      choose_the_only_two(columns);
     }
     if (columns.with_header) columns.is_geographic = are_degrees(columns);
     return columns;
@@ -200,7 +202,6 @@ class ColumnChoice {
       if (x == row_.size() || y == row_.size()) continue;
       columns.x = x;
       columns.y = y;
-      columns.is_named = true;
       return true;
     }
     return false;
