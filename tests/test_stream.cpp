@@ -11,6 +11,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -236,10 +237,13 @@ TEST(Stream, SaysWhatIsWrongOfSourcesAtTheSameTime) {
 TEST(Stream, AnExceptionEndsAllSourcesThatAreReadAtTheSameTime) {
   const Points points = testing::uniform_points(400'000, 5);
   const std::size_t block = 1000;
+  std::atomic<std::size_t> begun = 0;
   std::atomic<std::size_t> blocks = 0;
   std::vector<PointSource> sources = sources_of(points, 10, block);
   for (PointSource& source : sources) {
-    source = [&blocks, read = source](const auto& take) {
+    source = [&begun, &blocks, read = source](const auto& take) {
+      ++begun;
+      while (begun < 2) std::this_thread::yield();  // so that another one is being read
       read([&](std::span<const Point> points_of_block) {
         ++blocks;
         take(points_of_block);
