@@ -9,6 +9,7 @@ import gc
 import importlib
 import inspect
 import json
+import math
 import os
 import pathlib
 import pickle
@@ -18,6 +19,7 @@ import tempfile
 import threading
 import time
 import tracemalloc
+import typing
 import unittest
 import warnings
 import xml.etree.ElementTree
@@ -336,6 +338,9 @@ class Inputs(unittest.TestCase):
         self.refused(r"not \(\)", 1.0)
         self.refused(r"not \(1, 2, 2\)", [[(0, 0), (1, 1)]])
         self.refused("some rows differ in length", [(0, 0), (1, 1, 1)])
+        masked = np.ma.masked_equal([[0.0, 0.0], [4.0, 0.0], [9.0, 3.0]], 9)
+        self.refused("points are masked", masked)
+        self.refused("points are masked", list(masked))
         self.refused("real numbers, not of the type complex128", np.zeros((4, 2), complex))
         self.refused("real numbers", [("a", "b")])
         with self.assertRaisesRegex(ValueError, "shape"):
@@ -360,6 +365,10 @@ class Inputs(unittest.TestCase):
         np.testing.assert_array_equal(delaunay(shapely.geometry.MultiPoint(points)), delaunay(points))
         self.refused("a MultiPoint, not a Polygon", shapely.geometry.box(0, 0, 1, 1))
 
+    def test_type_hints_can_be_read(self):
+        for function in (concave_hull, concave_hulls, delaunay):
+            self.assertIn("points", typing.get_type_hints(function))
+
     def test_options(self):
         points = scattered(10)
         self.refused("alpha must be zero or more", points, alpha=-1)
@@ -367,6 +376,8 @@ class Inputs(unittest.TestCase):
         self.refused("max_edge_length must be zero or more", points, max_edge_length=-1)
         for threads in (0, -1):
             self.refused("threads must be one or more", points, threads=threads)
+        self.refused("alpha is too large for a float", points, alpha=10**400)
+        self.assertEqual(concave_hull(points, threads=2**70).__geo_interface__, concave_hull(points).__geo_interface__)
 
     def test_options_of_another_type_are_named_in_one_sentence(self):
         points = scattered(10)
@@ -380,6 +391,7 @@ class Inputs(unittest.TestCase):
             ("fill_single_triangles", "yes", "True or False, not of the type str"),
             ("cover", [1], "True or False, not of the type list"),
             ("one", "no", "True or False, not of the type str"),
+            ("one", np.array([True, False]), "True or False, not of the type ndarray"),
             ("threads", 1.5, "a whole number, not of the type float"),
         ):
             with self.subTest(option=option, value=value):
@@ -477,6 +489,11 @@ class GeoPandas(unittest.TestCase):
         ):
             with self.assertRaisesRegex(ValueError, message):
                 concave_hull(geopandas.GeoSeries([*points, other]))
+
+    def test_a_point_that_is_not_finite_is_named_by_its_row_though_others_have_no_label(self):
+        points = geopandas.points_from_xy([0, 0, math.inf, 1], [0, 1, 0, 1])
+        with self.assertRaisesRegex(ValueError, "^point 2 is not finite$"):
+            polylidar_core.geopandas.concave_hulls(geopandas.GeoSeries(points), by=[None, "a", "a", "a"])
 
 
 class Memory(unittest.TestCase):

@@ -257,11 +257,11 @@ class Npm(Task):
         self.do(lines, self.project, HOME=str(self.folder), npm_config_offline="true")
 
     def run_code(self, block, before="", after=""):
-        """What the code of a block writes, saved as hull.mjs."""
+        """What the code of a block writes last, saved as hull.mjs."""
         (self.project / "hull.mjs").write_text(f"{before}\n{BLOCKS[block]}\n{after}\n", encoding="utf-8")
         done = self.run_line("node hull.mjs", self.project)
         self.assertEqual(done.returncode, 0, done.stderr)
-        return json.loads(done.stdout)
+        return json.loads(done.stdout.splitlines()[-1])
 
     def test_the_package_makes_hulls(self):
         hull, area = self.run_code("package", after="console.log(JSON.stringify([hull, hull.area]))")

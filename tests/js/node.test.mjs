@@ -137,9 +137,35 @@ test("errors say what the core says, and leave the module in order", () => {
   const expected = plain(concaveHull(points));
   const errors = [
     [() => concaveHull([...points, [Infinity, 0]]), RangeError, "point 100 is not finite"],
-    [() => concaveHull(pairs([0, 0, 1, 0, undefined, 1])), RangeError, "point 2 is not finite"],
+    [() => concaveHull(pairs([0, 0, 1, 0, NaN, 1])), RangeError, "point 2 is not finite"],
+    [() => concaveHull(pairs([0, 0, 1, 0, undefined, 1])), TypeError, "point 2 is not an array of two numbers"],
+    [
+      () =>
+        concaveHull([
+          [1, 0],
+          [null, 1],
+        ]),
+      TypeError,
+      "point 1 is not an array of two numbers",
+    ],
+    [() => concaveHull([[1, ""]]), TypeError, "point 0 is not an array of two numbers"],
+    [() => concaveHull(["12", "34", "71"]), TypeError, "point 0 is not an array of two numbers"],
+    [() => concaveHull(Buffer.from(Float64Array.from(points.flat()).buffer)), TypeError, /^points are bytes/],
     [() => concaveHull(points, { detail: 0 }), RangeError, "detail must be positive and finite"],
     [() => concaveHull(points, { alpha: -1 }), RangeError, "alpha must be zero or more"],
+    [() => concaveHull(points, { alpha: "" }), TypeError, "alpha must be a number, not a string"],
+    [() => concaveHull(points, { detail: true }), TypeError, "detail must be a number, not a boolean"],
+    [() => concaveHull(points, { cover: "false" }), TypeError, "cover must be a boolean, not a string"],
+    [
+      () =>
+        concaveHulls(
+          points,
+          points.map(() => 1),
+          { one: 1 },
+        ),
+      TypeError,
+      "one must be a boolean, not a number",
+    ],
     [() => concaveHull(points, { maxPerimeter: NaN }), RangeError, "max_perimeter must be zero or more"],
     [() => concaveHulls(points, [1, 2]), RangeError, "there must be one label a point: there are 2 labels and 100 points"],
     [() => concaveHull(pairs([0, 0, 1e-300, 1, 1e300, 2])), RangeError, /^coordinates span more than a factor of/],

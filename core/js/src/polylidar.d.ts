@@ -8,28 +8,29 @@ export type Points =
   | Uint16Array
   | ReadonlyArray<ArrayLike<number>>;
 
-/** What shape to extract. Where none of the three limits is given, one is chosen from the points, place by place. */
+/** What shape to extract. Where none of the three limits is given, one is chosen from the points, place by place. null: not given. */
 export interface Options {
   /** How much of the outline is kept where the limit is chosen; > 0. 2 finds holes and notches of half the width. Default: 1. */
-  detail?: number;
+  detail?: number | null;
   /** Largest circumradius of a kept triangle, in the unit of the points; >= 0. */
-  alpha?: number;
+  alpha?: number | null;
   /** Longest edge of a kept triangle, in the unit of the points; >= 0. */
-  maxEdgeLength?: number;
+  maxEdgeLength?: number | null;
   /** Largest perimeter of a kept triangle, in the unit of the points; >= 0. */
-  maxPerimeter?: number;
+  maxPerimeter?: number | null;
   /**
    * Whether a triangle beyond a limit is kept all the same when its three neighbours are within. Default: true where the
    * limit is chosen, false where one is given.
    */
-  fillSingleTriangles?: boolean;
+  fillSingleTriangles?: boolean | null;
   /** Widen the limit, just enough to leave no point outside. One far outlier makes the shape coarse. Default: false. */
-  cover?: boolean;
+  cover?: boolean | null;
   /**
-   * Widen the limit, just enough to join all parts; what stays apart is dropped. This and `cover` take longer: in the
-   * native core some 5 times as long for 2,000 points, and 15 times for 100,000. Default: false.
+   * Widen the limit, just enough to join all parts that it gave before. A part that only the wider limit adds, and that
+   * lies apart, is dropped. This and `cover` take longer: in the native core some 5 times as long for 2,000 points, and
+   * 15 times for 100,000. Default: false.
    */
-  one?: boolean;
+  one?: boolean | null;
 }
 
 /** The limit that was chosen, the size of a triangle as a length, where the points are densest, usual and sparsest. */

@@ -1,7 +1,8 @@
 // Concave hulls of points in the plane. polylidar.d.ts says what everything means.
 import * as module from "./module.js";
 
-const OPTIONS = ["detail", "alpha", "maxEdgeLength", "maxPerimeter", "fillSingleTriangles", "cover", "one"];
+const FLAGS = ["fillSingleTriangles", "cover", "one"];
+const OPTIONS = ["detail", "alpha", "maxEdgeLength", "maxPerimeter", ...FLAGS];
 // The concavity that the core's default stands for: concaveman's default.
 const USUAL_CONCAVITY = 2;
 // concaveman takes 0 for "as detailed as can be"; of less than this nothing is left.
@@ -10,6 +11,9 @@ const LEAST_CONCAVITY = 2 ** -10;
 /** Points of either kind as x0, y0, x1, y1 ... */
 function flat(points) {
   if (!ArrayBuffer.isView(points) || points instanceof DataView) return flattened(points);
+  if (points.BYTES_PER_ELEMENT === 1) {
+    throw new TypeError("points are bytes: make numbers of them, such as new Float64Array(buffer)");
+  }
   if (points.length % 2) throw new TypeError("points must be pairs of x and y: the array's length is odd");
   return points;
 }
@@ -20,16 +24,22 @@ function flattened(points) {
   for (let i = 0; i < points.length; i++) {
     const point = points[i];
     if (!(point?.length >= 2)) throw new TypeError(`point ${i} is not an array of x and y`);
-    xy[2 * i] = point[0];
-    xy[2 * i + 1] = point[1];
+    const x = point[0];
+    const y = point[1];
+    // An array of numbers would take null and "" for 0.
+    if (typeof x !== "number" || typeof y !== "number") throw new TypeError(`point ${i} is not an array of two numbers`);
+    xy[2 * i] = x;
+    xy[2 * i + 1] = y;
   }
   return xy;
 }
 
 function checked(options) {
   if (typeof options !== "object" || options === null) throw new TypeError("options must be an object, such as { detail: 2 }");
-  for (const name of Object.keys(options)) {
+  for (const [name, value] of Object.entries(options)) {
     if (!OPTIONS.includes(name)) throw new TypeError(`there is no option '${name}': there are ${OPTIONS.join(", ")}`);
+    const kind = FLAGS.includes(name) ? "boolean" : "number";
+    if (value != null && typeof value !== kind) throw new TypeError(`${name} must be a ${kind}, not a ${typeof value}`);
   }
   return options;
 }

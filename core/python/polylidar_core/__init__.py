@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 import operator
 import os
-from typing import TYPE_CHECKING, Any, Protocol, Sequence, Union
+from typing import Any, Protocol, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -24,16 +24,16 @@ from ._labels import numbered
 from ._points import as_points
 from .multi_polygon import MultiPolygon
 
-if TYPE_CHECKING:
 
-    class _HasGeoInterface(Protocol):
-        """Shapely's MultiPoint, a GeoSeries and so on."""
+class _HasGeoInterface(Protocol):
+    """Shapely's MultiPoint, a GeoSeries and so on."""
 
-        @property
-        def __geo_interface__(self) -> Any:
-            ...
+    @property
+    def __geo_interface__(self) -> Any:
+        ...
 
-    Points = Union[npt.ArrayLike, _HasGeoInterface]
+
+Points = Union[npt.ArrayLike, _HasGeoInterface]
 
 __all__ = ["MultiPolygon", "__version__", "concave_hull", "concave_hulls", "delaunay"]
 
@@ -80,8 +80,9 @@ def concave_hull(
     fill_single_triangles: whether a triangle beyond a limit is kept all the same when its three neighbours are within;
         None: only where the limit is chosen.
     cover: whether the limit is widened, just enough to leave no point outside. One far outlier makes the shape coarse.
-    one: whether the limit is widened, just enough to join all parts; what stays apart is dropped. Both take some 5
-        times as long for 2,000 points, and 15 times for 100,000.
+    one: whether the limit is widened, just enough to join all parts that it gave before. A part that only the wider
+        limit adds, and that lies apart, is dropped. Both take some 5 times as long for 2,000 points, and 15 times for
+        100,000.
     threads: how many threads compute, one or more; None: as many as this process may use processors. The result does
         not depend on it. Worth it from some 10,000 points on.
 
@@ -170,8 +171,10 @@ def _checked(*options: Any) -> tuple[Any, ...]:
             math.fabs(value)
         except TypeError:
             raise _wrong_type(name, "a number", value) from None
+        except OverflowError:
+            raise ValueError(f"{name} is too large for a float") from None
     for name, value in zip(_FLAGS, options[len(_NUMBERS) :]):
-        if not hasattr(type(value), "__bool__"):
+        if not hasattr(type(value), "__bool__") or np.ndim(value) > 0:
             raise _wrong_type(name, "True or False", value)
     return (*options[:-1], _thread_count(options[-1]))
 
@@ -189,4 +192,4 @@ def _thread_count(threads: int | None) -> int:
         raise _wrong_type("threads", "a whole number", threads) from None
     if count < 1:
         raise ValueError("threads must be one or more, or None for all processors")
-    return count
+    return min(count, 1024)  # the core uses no more

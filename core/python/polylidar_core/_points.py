@@ -13,7 +13,8 @@ def as_points(points: Any) -> npt.NDArray[np.float64]:
     # Of the type, as GeoPandas would work the attribute itself out.
     if hasattr(type(points), "__geo_interface__"):
         points = _coordinates(points)
-    if isinstance(points, np.ma.MaskedArray) and np.any(points.mask):
+    rows = points if isinstance(points, (list, tuple)) else [points]
+    if any(isinstance(row, np.ma.MaskedArray) and np.any(row.mask) for row in rows):
         raise ValueError("points are masked: leave them out, points[~points.mask.any(axis=1)]")
     try:
         array = np.asarray(points)
@@ -49,4 +50,8 @@ def _coordinates(points: Any) -> Any:
             "points.to_crs(points.estimate_utm_crs()) gives metres",
             stacklevel=4,
         )
-    return np.column_stack([series.x, series.y])
+    coordinates = np.column_stack([series.x, series.y])
+    infinite = np.flatnonzero(~np.isfinite(coordinates).all(axis=1))
+    if infinite.size > 0:
+        raise ValueError(f"point {infinite[0]} is not finite")
+    return coordinates

@@ -5,6 +5,7 @@ import type { ChosenSizes, Hull, Options, Points } from "polylidar";
 const pairs: Points = [[0, 0], [4, 0], [4, 3]];
 const arrays: Points[] = [pairs, Float64Array.of(0, 0, 4, 0, 4, 3), new Float32Array(6), new Int32Array(6), new Uint16Array(6)];
 const options: Options = { detail: 2, alpha: 1, maxEdgeLength: 1, maxPerimeter: 1, fillSingleTriangles: true };
+const none: Options = { detail: null, alpha: null, maxEdgeLength: null, maxPerimeter: null, fillSingleTriangles: null, cover: null };
 const hull: Hull = concaveHull(pairs, options);
 const [x, y]: [number, number] = hull.coordinates[0][0][0];
 const indices: Uint32Array[] = [hull.vertices, hull.ringEnds, hull.polygonEnds];
@@ -15,4 +16,4 @@ const words: { label: string; hull: Hull }[] = concaveHulls(pairs, ["a", "a", "b
 const labels: { label: number }[] = concaveHulls(arrays[1], new Int32Array(3), { detail: 1 });
 const places = [{ 0: 1, 1: 2, length: 2, name: "here" }];
 const ring: { name: string }[] = concaveman(places, 2, 0);
-export { indices, labels, numbers, ring, same, type, words };
+export { indices, labels, none, numbers, ring, same, type, words };
