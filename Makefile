@@ -14,6 +14,7 @@ SHELL := /bin/bash
 MAKEFLAGS += --no-print-directory
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
+override SKIP_DEPS := $(filter-out 0,$(SKIP_DEPS))
 
 # One process a core, but no more than there is memory for: a file that includes CGAL takes up to 1.5 GB to compile.
 JOBS ?= $(shell awk -v cores="$$(nproc 2>/dev/null || echo 2)" \
@@ -74,11 +75,11 @@ deps-extra: ## install what the other methods need: those in JavaScript, Python 
 	@$(call install,extra)
 	@$(if $(SKIP_DEPS),,cmake/install-npm.sh adapters/manifests)
 	@$(if $(SKIP_DEPS),,cmake/install-legacy.sh)
-	@echo "==> nothing is missing for the other methods"
+	@$(if $(SKIP_DEPS),,echo "==> nothing is missing for the other methods")
 
 deps-real: ## install Debian's packages with the real points of "hullbench run real"
 	@$(call install,real)
-	@echo "==> nothing is missing for the real points"
+	@$(if $(SKIP_DEPS),,echo "==> nothing is missing for the real points")
 
 deps-legacy: ## get the paper's PostGIS (3.1, from Debian 11) into a folder of caches, without root
 	@cmake/install-legacy.sh
@@ -107,14 +108,17 @@ bench: ## install, build and run the experiments in three passes (TABLE=states: 
 	@build/hullbench run $(or $(TABLE),rgbd states alphabet random steps) --passes 3
 
 RUN ?= results/latest
+# A run's own name. The checkout's path may have blanks, at which make would split it.
+run_name = $(notdir $(subst $(CURDIR)/,,$(realpath $(1))))
 # Named like the run, as the pages say it.
-drawn_folder = build/drawn/records/$(2)$(notdir $(realpath $(1)))
+drawn_folder = build/drawn/records/$(2)$(run_name)
 # Where the drawing goes: beside the records. Of a kept reference run, which has no report.json, into a folder of its own:
 # what is kept beside its records was drawn with the pictures.
-drawn_into = $(if $(wildcard $(1)/report.json $(1)/*/report.json),$(1),build/drawn/$(notdir $(realpath $(1))))
+drawn_into = $(if $(wildcard $(1)/report.json $(1)/*/report.json),$(1),build/drawn/$(run_name))
 
 # $(call drawn,run,folder): what is drawn of a run, written anew as a reference run has its records compressed.
 define drawn
+{ [ -d $(1) ] || { echo "error: there is no folder $(1): name that of a run, as in RUN=results/reference." >&2; exit 2; }; } && \
 rm -rf $(2) && mkdir -p $(call drawn_into,$(1)) && build/hullbench report $(1) --out $(2) >/dev/null && \
 { build/hullbench league $(1) --all-cases --csv $(2)/cases.csv >/dev/null || true; } && \
 for extra in tables core.json league.json league.csv tune.json tune.json.xz; do [ ! -e $(1)/$$extra ] || cp -r $(1)/$$extra $(2); done && \

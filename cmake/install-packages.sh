@@ -98,11 +98,12 @@ guard_services() {
     esac
   done
   [ ${#new_services[@]} -gt 0 ] || return 0
-  # A saved policy is there already only when an earlier installation was killed half-way.
-  [ ! -e "$policy" ] || [ -e "$policy_saved" ] || mv "$policy" "$policy_saved"
+  # Ours, which names the saved one, is there already only when an earlier installation was killed half-way.
+  [ ! -e "$policy" ] || grep -qF "$policy_saved" "$policy" || mv "$policy" "$policy_saved"
   cat >"$policy" <<POLICY
 #!/bin/sh
-case " ${new_services[*]} " in *" \${1%%@*} "*) exit 101 ;; esac
+service=\${1%%@*}
+case " ${new_services[*]} " in *" \${service%.service} "*) exit 101 ;; esac
 [ ! -x "$policy_saved" ] || exec "$policy_saved" "\$@"
 exit 0
 POLICY
@@ -129,14 +130,21 @@ unguard_services() {
   done
 }
 
-apt() { DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3 "$@"; }
+# A setting that was edited stays as it is; dpkg would ask, and nobody would see the question.
+apt() {
+  DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3 \
+    -o DPkg::Options::=--force-confdef -o DPkg::Options::=--force-confold "$@"
+}
+
+# What apt-get update could not fetch, of which its exit status says nothing.
+unfetched=""
 
 # Another apt may hold the lock on the lists, for which apt-get itself does not wait.
 update_lists() {
   say "apt-get update"
   local attempt output
   for attempt in $(seq 30); do
-    output=$(apt update 2>&1) && return
+    output=$(apt update 2>&1) && { unfetched=$(grep -E '^[EW]: Failed to fetch' <<<"$output" || true); return; }
     grep -q 'Could not get lock' <<<"$output" || break
     [ "$attempt" -gt 1 ] || say "waiting for another apt to finish"
     sleep 10
@@ -167,6 +175,10 @@ install_as_root() {
   set -- "${names[@]%\?}"
   if [ $updated = yes ]; then
     unknown=$(without_candidate "$@" | paste -sd ' ')
+    [ -z "$unknown" ] || [ -z "$unfetched" ] || {
+      printf '%s\n' "$unfetched" >&2
+      fail 1 "apt-get update failed: check the network and the apt sources."
+    }
     [ -z "$unknown" ] ||
       fail 2 "$(distribution) offers no package $unknown: Debian 12, Ubuntu 24.04 (with 'universe') or newer is needed."
   fi
@@ -199,6 +211,7 @@ install_failed() {
 
 if [ "${1:-}" = --as-root ]; then
   shift
+  umask 022
   log=$(mktemp)
   trap 'unguard_postgres; unguard_services; rm -f "$log"' EXIT
   trap 'exit 130' INT
@@ -242,6 +255,7 @@ if [ "$(id -u)" -eq 0 ]; then
   bash "$here/install-packages.sh" --as-root "${missing[@]}"
 elif command -v sudo >/dev/null; then
   say "installing needs root: calling sudo"
+  sudo true || fail 2 "sudo does not make you root: run 'apt-get install ${missing[*]%\?}' as root."
   sudo bash "$here/install-packages.sh" --as-root "${missing[@]}"
 else
   fail 2 "installing needs root and there is no sudo: run 'apt-get install ${missing[*]%\?}' as root."

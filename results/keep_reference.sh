@@ -9,7 +9,7 @@ set -euo pipefail
   sed -n '2,5s/^# \{0,1\}//p' "$0" >&2
   exit 2
 }
-run=$1
+run=$(realpath -m -- "$1")
 cd "$(dirname "$0")/.."
 if [ ! -f "$run/suite.json" ] || [ ! -f "$run/tables.md" ]; then
   echo "error: $run is not a finished 'make bench'; run that first." >&2
@@ -23,7 +23,10 @@ fi
 results/check_reference.py "$run"
 
 first=$(sed -n 's/^ *"created": "\([^"]*\)".*/\1/p' "$run/suite.json" | head -n 1)
-machine=$(grep -h -m 1 -o '"machine_id": "[0-9a-f]*"' "$run"/*/run.json | head -n 1 | cut -d '"' -f 4)
+machine=$(grep -h -m 1 -o '"machine_id": "[0-9a-f]*"' "$run"/*/run.json | head -n 1 | cut -d '"' -f 4) || {
+  echo "error: no run.json in $run names its machine." >&2
+  exit 2
+}
 kept=results/${first%%T*}-$machine
 
 # The former one stays until this one is complete.

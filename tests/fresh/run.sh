@@ -381,6 +381,7 @@ else
   step "bare $suite root with git and make" make_base "$work/base" || exit 1
   if [ -n "${FRESH_CACHE:-}" ]; then
     mkdir -p "$FRESH_CACHE"
+    rm -rf --one-file-system -- "$FRESH_CACHE/$suite.partial"
     cp -a "$work/base" "$FRESH_CACHE/$suite.partial"
     mv "$FRESH_CACHE/$suite.partial" "$FRESH_CACHE/$suite"
   fi

@@ -19,7 +19,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 project_files() {
   git ls-files --cached --others --exclude-standard 2>/dev/null |
     while IFS= read -r file; do [ ! -f "$file" ] || printf '%s\n' "$file"; done | grep . && return
-  find . -path './build*' -prune -o -path ./.git -prune -o -path ./results/runs -prune -o -name node_modules -prune -o \
+  find . -path './build*' -prune -o -path ./.git -prune -o -path ./results/runs -prune -o -path ./results/slurm -prune -o \
+    -path ./results/evaluation -prune -o -name node_modules -prune -o \
     -type f -print | sed 's|^\./||'
 }
 
