@@ -66,7 +66,7 @@ std::vector<ShapeFamily> make_families() {
                                            "Drawn for this project: a band along an Archimedean spiral"),
       tangled_family<TangledKind::kPartition>(
           "Polygon from a partition",
-          "Drawn for this project: a polygon grown triangle by triangle in a random partition of a square"),
+          "Drawn for this project: a polygon grown triangle by triangle in a randomly shifted lattice"),
       tangled_family<TangledKind::kWalk>("Walk on a grid",
                                          "Drawn for this project: the cells of a random tree in a grid"),
       tangled_family<TangledKind::kNested>("Nested rings",

@@ -14,6 +14,15 @@ namespace hullbench {
 /// 3e-18.
 polylidar::Point unit_vector(double turns);
 
+/// `point` turned counter-clockwise about the origin by the angle of the unit vector `direction`.
+///
+/// A sum in both coordinates: g++ 12 makes a difference in one and a sum in the other into one fused
+/// instruction where the processor has it, -ffp-contract=off or not, and the last bits would depend on it.
+inline polylidar::Point turned(const polylidar::Point& point, const polylidar::Point& direction) {
+  const double minus_sine = -direction.y;
+  return {point.x * direction.x + point.y * minus_sine, point.x * direction.y + point.y * direction.x};
+}
+
 /// The natural logarithm of `x`, within 2e-15 of the true value absolutely or relatively, whichever is the
 /// more; exactly 0 for 1. std::invalid_argument when `x` is not positive and finite.
 ///

@@ -69,6 +69,8 @@ struct StressKind {
 ///            deviation h; a cluster has `level` points on average. Centres lie up to 6 h outside the
 ///            bounding box, so that the density does not fall towards the shape's boundary. (Thomas: A
 ///            Generalization of Poisson's Binomial Limit for Use in Ecology, Biometrika 36, 1949)
+///            std::runtime_error when ten million draws in a row miss the shape, as no cluster reaches into
+///            it.
 /// cascade    The density varies by chance, on all scales down to a 32nd of the extent. The bounding box,
 ///            turned by chance, is halved ten times; of the halves of each part one has `level` times the
 ///            density of the other. The logarithm of the density has a standard deviation of

@@ -101,7 +101,8 @@ void add_side(const Place& place, const Corner& begin, const Point& end, Ring& r
   for (int k = 0; k < kPiecesOfASide; ++k) {
     const double part = static_cast<double>(k) / kPiecesOfASide;
     const double off = bend * unit_vector(part / 2).y;
-    ring.push_back({begin.point.x + part * dx - off * dy, begin.point.y + part * dy + off * dx});
+    const double minus_off = -off;  // sums in both coordinates: see turned()
+    ring.push_back({begin.point.x + part * dx + minus_off * dy, begin.point.y + part * dy + off * dx});
   }
 }
 

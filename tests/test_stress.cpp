@@ -433,6 +433,18 @@ TEST(Stress, SeveralAreAppliedInTheirOrder) {
   EXPECT_EQ(drawn_with("a~gradient:16~outliers:10~noise:0.5~quantised:0.5"), rounded);
 }
 
+TEST(Stress, ClustersOfWhichNoneReachesIntoTheShapeAreAnErrorAndNoEndlessSearch) {
+  // Two squares a long way apart, and clusters of so many points that there are few.
+  MultiPolygon shape = square();
+  MultiPolygon far = square();
+  for (Point& vertex : far.front().shell) vertex.x += 10'000;
+  shape.push_back(far.front());
+  std::string said = kNoComplaint;
+  for (std::uint64_t seed = 1; seed <= 20 && said == kNoComplaint; ++seed)
+    said = complaint_of([&] { sample_clusters(shape, 10, 1000, seed); });
+  expect_says(said, "clusters reaches into the shape");
+}
+
 TEST(Stress, ClustersAreThomass) {
   // Ripley's K of a Thomas process with clusters of m points and standard deviation s, in squared spacings:
   // K(r) = pi r^2 + m (1 - exp(-r^2 / (4 s^2))), here for r = 2, s = 1: 12.57 + 0.632 m. Counted round the

@@ -154,11 +154,12 @@ ConvexPrism stand(const Obstacle& obstacle) {
   const double norm = std::sqrt(direction.x * direction.x + direction.y * direction.y);
   const double cosine = direction.x / norm;
   const double sine = direction.y / norm;
+  const double minus_sine = -sine;  // sums in both coordinates: see turned() in portable_math.hpp
   Ring footprint = unit_footprint(obstacle.footprint);
   for (Point& vertex : footprint) {
     const double along = vertex.x * obstacle.length;
     const double across = vertex.y * obstacle.width;
-    vertex = {obstacle.centre.x + cosine * along - sine * across,
+    vertex = {obstacle.centre.x + cosine * along + minus_sine * across,
               obstacle.centre.y + sine * along + cosine * across};
   }
   return {std::move(footprint), obstacle.height};

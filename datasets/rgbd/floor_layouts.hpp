@@ -28,9 +28,9 @@ struct FloorLayout {
 
 /// Scene `index`, from 0: ten from 1.5 m straight down, the last one from 2 m and tilted by
 /// 20.6 degrees. Obstacles are boxes, cylinders (64-gons), triangles, hexagons and L shapes of two boxes, 8
-/// to 70 cm high; some reach over the border of the image. The kLowFloorScenes behind them are seen from 0.3,
-/// 0.5, 0.8 and 1.2 m, tilted by 53.1 degrees, the last one by 36.9. Throws std::invalid_argument for any
-/// other index.
+/// to 70 cm high (one in a low scene 5 cm); some reach over the border of the image. The kLowFloorScenes
+/// behind them are seen from 0.3, 0.5, 0.8 and 1.2 m, tilted by 53.1 degrees, the last one by 36.9. Throws
+/// std::invalid_argument for any other index.
 FloorLayout floor_layout(std::size_t index);
 
 }  // namespace hullbench

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 
 #include "datasets/random.hpp"
 #include "datasets/samplers/draw.hpp"
@@ -70,10 +72,17 @@ std::vector<Point> sample_clusters(const MultiPolygon& shape, std::size_t n, dou
   Random random(derive_seed(seed, "clusters"));
   std::vector<Point> centres(static_cast<std::size_t>(std::ceil(count)));
   for (Point& centre : centres) centre = uniform_in(box, random);
+  constexpr std::size_t kMaxMisses = 10'000'000;
   std::vector<Point> points;
-  while (points.size() < n) {
+  for (std::size_t misses = 0; points.size() < n; ++misses) {
+    if (misses > kMaxMisses) {
+      throw std::runtime_error("none of " + std::to_string(centres.size()) +
+                               " clusters reaches into the shape; ask for more points or a lower level");
+    }
     const Point point = moved_by_gaussian(centres[random.below(centres.size())], h, random);
-    if (locator.contains(point)) points.push_back(point);
+    if (!locator.contains(point)) continue;
+    points.push_back(point);
+    misses = 0;
   }
   return points;
 }

@@ -64,6 +64,7 @@ class NearPoints {
 std::vector<Point> draw_lattice(const PointLocator& locator, double side, double jitter, Random& random) {
   const Box& box = locator.bounds();
   const Point along = unit_vector(random.between(0.01, 0.04));
+  const double minus_sine = -along.y;  // sums in both coordinates: see turned()
   const Point origin = {(box.min.x + box.max.x) / 2 + side * random.uniform(),
                         (box.min.y + box.max.y) / 2 + side * random.uniform()};
   const double width = box.max.x - box.min.x;
@@ -76,7 +77,7 @@ std::vector<Point> draw_lattice(const PointLocator& locator, double side, double
     for (int column = -reach; column <= reach; ++column) {
       const double u = side * (column + jitter * random.between(-1, 1));
       const double v = side * (row + jitter * random.between(-1, 1));
-      const Point point = {origin.x + u * along.x - v * along.y, origin.y + u * along.y + v * along.x};
+      const Point point = {origin.x + u * along.x + v * minus_sine, origin.y + u * along.y + v * along.x};
       if (locator.contains(point)) points.push_back(point);
     }
   }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "datasets/portable_math.hpp"
 #include "datasets/random.hpp"
 #include "polylidar/geometry.hpp"
 
@@ -19,11 +20,9 @@ class ScanFrame {
   ScanFrame(const polylidar::MultiPolygon& shape, double turns);
 
   polylidar::Point in_frame(const polylidar::Point& point) const {
-    return {point.x * along_.x + point.y * along_.y, point.y * along_.x - point.x * along_.y};
+    return turned(point, {along_.x, -along_.y});
   }
-  polylidar::Point in_plane(const polylidar::Point& point) const {
-    return {point.x * along_.x - point.y * along_.y, point.x * along_.y + point.y * along_.x};
-  }
+  polylidar::Point in_plane(const polylidar::Point& point) const { return turned(point, along_); }
   /// Of the shape, in the frame.
   const polylidar::Box& bounds() const { return bounds_; }
 

@@ -18,13 +18,7 @@ namespace {
 constexpr std::size_t kOutlineVertices = 60;
 
 void turn_by(Ring& ring, const Point& direction) {
-  // A sum in both coordinates: g++ 12 makes a difference in one and a sum in the other into one fused
-  // instruction where the processor has it, -ffp-contract=off or not, and the last bits would depend on it.
-  const double minus_sine = -direction.y;
-  for (Point& vertex : ring) {
-    vertex = {vertex.x * direction.x + vertex.y * minus_sine,
-              vertex.x * direction.y + vertex.y * direction.x};
-  }
+  for (Point& vertex : ring) vertex = turned(vertex, direction);
 }
 
 }  // namespace

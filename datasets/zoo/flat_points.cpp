@@ -113,7 +113,7 @@ Input shallow_arc() {
   return input;
 }
 
-/// Three points on a line that is slanted by 5e-16 of its length and 1.4e-10 beside an axis, and one apart.
+/// Three points on a line that is slanted by 8e-16 of its length and 1.4e-10 beside an axis, and one apart.
 Input three_beside_an_axis() {
   return {{{-1.41e-10, 5.25}, {-1.41e-10 + 9e-15, -5.5}, {-1.41e-10 + 15e-15, -12.75}, {1 - 8.5e-11, -3.75}},
           {}};
