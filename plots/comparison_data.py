@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from records import Experiment, RecordError, Row, Series, member_of, read_json
+from records import Experiment, RecordError, Row, Series, read_json
 from report_common import label, round_to
 from report_data import MetricTable, charts, composed_name, titles_of, words_of
 from report_summary import SAME_ERROR
@@ -194,7 +194,7 @@ def columns(comparison: Comparison) -> dict[str, Any]:
     """Columns like those of report_data.columns, in milliseconds and in the error's own unit (of the truth's area)."""
     pairs = comparison.pairs
     experiments = [experiment.name for experiment in comparison.a]
-    split = [member_of(pair.a.dataset) for pair in pairs]
+    split = [pair.experiment.family(pair.a.dataset) for pair in pairs]
     made = {
         "experiment": {"values": [experiments.index(pair.experiment.name) for pair in pairs]},
         "entrant": words_of([pair.a.series.key for pair in pairs]),

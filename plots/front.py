@@ -36,15 +36,16 @@ class Front:
     report: str = ""
 
 
-def make_front(folder: Path) -> Front:
-    """Of the run or suite in this folder. Raises RecordError when its results cannot be read."""
+def make_front(folder: Path, mixed_times: bool = False) -> Front:
+    """Of the run or suite in this folder; mixed_times: its times are of several machines or builds, and so not shown.
+    Raises RecordError when its results cannot be read."""
     league, cases = folder / "league.csv", folder / "cases.csv"
     if not league.is_file() and not cases.is_file():
         said = f"There are no ratings: {cases} is not there; 'hullbench league {folder} --all-cases --csv {cases}' writes it."
         return Front([], [], True, said)
     own = read(cases) if cases.is_file() else None
     rated = [rate(one) for one in divisions(read(league) if league.is_file() else own)]
-    timed = [one for one in divisions(own) if has_times(one)] if own else []
+    timed = [one for one in divisions(own) if has_times(one)] if own and not mixed_times else []
     why = "" if rated else "Nobody leads: no two methods that know as much have a case with a truth in common."
     return Front(rated, timed, not league.is_file(), why)
 
@@ -81,7 +82,7 @@ def lead_sentence(rating: Rating, timed: Division | None) -> str:
         verb = "leads" if lead.clear else "is ahead, but not clearly, of"
         said = f"<b>{name}</b> {verb} {field}: mean rank {number(first.rank)}{interval_words(first.rank_interval)} over {_cases(rating)}, then {others[0]} with {number(second.rank)}"
         said += f"; in the median case its error is {number(lead.ratio)} times that one’s{interval_words(lead.ratio_interval)}"
-    said += time_words(timed, first.series)
+    said += time_words(rating, timed, first.series)
     return said + f". {_exceptions(rating)}"
 
 
@@ -93,9 +94,17 @@ def interval_words(interval: tuple[float, float] | None) -> str:
     return f" (95 %: {number(interval[0])} to {number(interval[1])})" if interval else ""
 
 
-def time_words(timed: Division | None, series: Series) -> str:
+def time_words(rating: Rating, timed: Division | None, series: Series) -> str:
     times = typical_times(timed) if timed else {}
-    return f", at {number(times[series])} µs a point" if math.isfinite(times.get(series, math.inf)) else ""
+    if timed is None or not math.isfinite(times.get(series, math.inf)):
+        return ""
+    return f", at {number(times[series])} µs a point{_where_timed(rating, timed)}"
+
+
+def _where_timed(rating: Rating, timed: Division) -> str:
+    """The ratings may be of an evaluation, whose cases nobody timed."""
+    same = timed.results.cases == rating.division.results.cases
+    return "" if same else f" in {count_of(len(timed.results.cases), 'case')} of this run"
 
 
 def _exceptions(rating: Rating) -> str:
@@ -149,6 +158,8 @@ def _league(rating: Rating, timed: Division | None, pages: Mapping[str, str]) ->
     times = typical_times(timed) if timed else {}
     rows = [_league_row(place, line, every, times, pages) for place, line in enumerate(lines_of(rating), 1)]
     caption = f"League of {_cases(rating)}; methods with the same results share a line"
+    if timed and (where := _where_timed(rating, timed)):
+        caption += f"; times are medians{where}"
     shown = table(_LEAGUE, "".join(rows[:FIRST_ROWS]), " class='league'", caption)
     rest = rows[FIRST_ROWS:]
     if rest:

@@ -18,7 +18,7 @@ MOST_NAMED = 7
 
 def charts_html(timed: Division | None) -> str:
     if timed is None:
-        return "<p class='muted'>The run has no times of these methods, so there is no chart of speed.</p>"
+        return "<p class='muted'>The run has no times of these methods that belong together, so there is no chart of speed.</p>"
     return f"<div class='charts wide'>{solved_figure(timed)}{time_error_figure(timed)}</div>"
 
 

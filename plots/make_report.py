@@ -21,7 +21,7 @@ from records import Experiment, exit_code_of, load, options_of_run
 from report_common import text
 from report_data import MetricTable, charts, columns, pack
 from report_html import environment_html, notes_html, paper_html, parameters_html, summary_html, tables_html
-from report_summary import summarise
+from report_summary import mixture_sentence, summarise
 from strip import strip_html
 from where import listed_cases, where_html
 
@@ -44,7 +44,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def make_page(experiments: Sequence[Experiment], folder: Path) -> str:
     """The whole page. Raises RecordError when the charting library or esbuild is missing."""
     title = "Concave hulls: " + (experiments[0].title if len(experiments) == 1 else "the whole suite")
-    front = make_front(folder)
+    front = make_front(folder, bool(mixture_sentence(experiments)))
     kept = folder / "report.html" if is_kept(folder, experiments) else None
     leader = front.ratings[0].standings[0].series.key if front.ratings else None
     report = {**_report(experiments), "leader": leader}

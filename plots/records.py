@@ -205,9 +205,13 @@ class Experiment:
         rows = (row.raw for row in self.rows if row.raw["time_ns"] or not with_times)
         return {row.get("machine") or self.report["environment"]["machine_id"] for row in rows}
 
+    def family(self, name: str) -> tuple[str, int | None]:
+        """As member_of(); but a data set that is known by its whole name, such as zoo-qgis-65899, is nobody's member."""
+        return (name, None) if name in self.datasets else member_of(name)
+
     def dataset_title(self, name: str) -> str:
         """California; for a member of a family, Simulated floor 3."""
-        family, number = (name, None) if name in self.datasets else member_of(name)
+        family, number = self.family(name)
         title = self.datasets[family]["title"] if family in self.datasets else family
         return title if number is None else f"{title} {number}"
 

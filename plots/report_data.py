@@ -9,7 +9,7 @@ from collections import defaultdict
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from records import Experiment, Row, member_of
+from records import Experiment, Row
 from report_common import round_to
 
 # Charts show every shape of its own up to this many; above, classes of convexity.
@@ -96,7 +96,7 @@ def columns(experiments: Sequence[Experiment]) -> dict[str, Any]:
     made: dict[str, dict[str, Any]] = {"experiment": {"values": [index for index, _, _ in rows]}}
     words: dict[str, Callable[[Experiment, Row], str]] = {
         "entrant": lambda _, row: row.series.key,
-        "family": lambda _, row: member_of(row.dataset)[0],
+        "family": lambda experiment, row: experiment.family(row.dataset)[0],
         "sample": lambda _, row: row.case.removeprefix(f"{row.dataset}/"),
         "status": lambda _, row: row.status,
         "detail": lambda _, row: row.detail,
@@ -111,7 +111,7 @@ def columns(experiments: Sequence[Experiment]) -> dict[str, Any]:
     if any(row.name != composed_name(row) for _, _, row in rows):
         made["name"] = words_of([row.name for _, _, row in rows])
     made["family"]["titles"] = titles_of(experiments, made["family"]["words"])
-    made["member"] = {"values": [member_of(row.dataset)[1] for _, _, row in rows]}
+    made["member"] = {"values": [experiment.family(row.dataset)[1] for _, experiment, row in rows]}
     made["n"] = {"values": [row.n for _, _, row in rows]}
     made["holes"] = {"values": [int(row.holes) for _, _, row in rows]}
     made["seed"] = {"values": [row.raw.get("seed") for _, _, row in rows]}
@@ -204,6 +204,8 @@ def _charts(experiment: Experiment) -> list[dict[str, Any]]:
     kinds: dict[str, list[Row]] = defaultdict(list)
     for row in rest:
         kinds[_kind(experiment, row)].append(row)
+    if len(kinds) == len(shapes):  # no families: each class would be one shape
+        return [*made, _by_shape(experiment, rest, shapes)]
     return made + [_by_convexity(experiment, kind, rows) for kind, rows in kinds.items()]
 
 
@@ -267,7 +269,7 @@ def _point(row: Row, x: int, names: Sequence[str]) -> dict[str, Any]:
 
 def _kind(experiment: Experiment, row: Row) -> str:
     """Star-shaped polygon with holes: the title without the member's number."""
-    return experiment.dataset_title(member_of(row.dataset)[0]) + (" with holes" if row.holes else "")
+    return experiment.dataset_title(experiment.family(row.dataset)[0]) + (" with holes" if row.holes else "")
 
 
 def _by_convexity(experiment: Experiment, kind: str, rows: Sequence[Row]) -> dict[str, Any]:

@@ -29,7 +29,7 @@ def _reading(summaries: Sequence[Summary]) -> str:
     said = (
         "A ratio of times is the median over the rounds of a case, in which both were measured right after one another; "
         "of the cases the median is told. A case that only the method failed has the ratio ∞. In a case a method is faster "
-        "where the 95 % interval of the ratio leaves out 1, or, with too few repetitions for an interval, where its longest "
+        "where the 95 % interval of the ratios of all its times to all of the other’s leaves out 1, or, with too few repetitions for an interval, where its longest "
         "time is at most a tenth of the other’s shortest. A ratio is in bold where it is below 1 and the method is faster "
         "(or more accurate) in one case at least, or alone solves one. The fastest of a case is faster than every other "
         "method; where none is, the first ones are not distinguishable."

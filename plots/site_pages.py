@@ -234,7 +234,7 @@ def _rated(run: SiteRun, rating: Rating, place: int) -> str:
     said = (
         f"<b>{text(short_name(one.series, every))}</b> has place {_rank(rating, place)} of {count} among the different results of methods that "
         f"{KNOWS[rating.division.name]}: mean rank {number(one.rank)}{interval_words(one.rank_interval)}, median error "
-        f"{number(100 * one.error)} %{time_words(timed, one.series)}, {count_of(one.failures, 'failure')}."
+        f"{number(100 * one.error)} %{time_words(rating, timed, one.series)}, {count_of(one.failures, 'failure')}."
     )
     rows, firsts = [], []
     for part in [*rating.kinds, *rating.samplers]:

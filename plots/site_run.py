@@ -15,7 +15,7 @@ from ratings import DIVISIONS, Division, Results, divisions, read
 from records import Experiment, Picture, Row, load, member_of
 from report_common import method_look
 from report_html import methods_of
-from report_summary import Summary, summarise
+from report_summary import Summary, mixture_sentence, summarise
 from report_tables import documents
 from strip import Shown
 
@@ -143,7 +143,7 @@ def load_run(folder: Path) -> SiteRun:
     return SiteRun(
         folder,
         experiments,
-        make_front(folder),
+        make_front(folder, bool(mixture_sentence(experiments))),
         [summarise(one) for one in experiments],
         [read(file) for file in files if file.is_file()],
         pictures,

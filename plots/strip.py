@@ -63,7 +63,8 @@ def strip_html(
     missing = [what for what, one, _ in chosen if one is None]
     cards = "".join(card(k, what, one, said, report) for k, (what, one, said) in enumerate(chosen) if one is not None)
     said = f"This run has none of these: {sentence_list([one[:1].lower() + one[1:] for one in missing])}." if missing else ""
-    note = f"<p class='muted'>{said}</p>" if missing else ""
+    kept = "Best, median and worst are of the cases that have a picture; of very many runs mainly the worst have one."
+    note = f"<p class='muted'>{' '.join(filter(None, [kept, said]))}</p>"
     title = f"{name} in {count_of(len(chosen) - len(missing), 'picture')}"
     return f"<div class='strip' id='strip'><h3>{title}</h3>{cards_html(cards)}{note}</div>"
 

@@ -84,7 +84,7 @@ def _heat_cell(part: Part, place: int, name: str, key: str, series: Series, repo
     strength = _STRONGEST * min(1.0, math.log(ratio) / math.log(_WORST_RATIO)) if math.isfinite(ratio) else _STRONGEST
     mark = (
         "<span class='best'>•<span class='hidden'> the best: </span></span>"
-        if number(100 * error) == number(100 * best)
+        if math.isfinite(best) and number(100 * error) == number(100 * best)
         else ""
     )
     shown = mark + number(100 * error)

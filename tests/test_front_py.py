@@ -70,8 +70,22 @@ class Folder(WithFolder):
         made = self.make(cases=self.csv("a/auto", "b/auto"), league=self.csv("b/auto", "a/auto"))
         self.assertEqual(made.ratings[0].standings[0].series.method, "b")
         self.assertEqual([one.results.entrants[0].method for one in made.timed], ["a"])
+        # "a" has its time of other cases.
+        evaluated = self.csv("b/auto", "a/auto").replace("x/n:9", "y/n:9")
+        said = front.front_html(self.make(cases=self.csv("a/auto", "b/auto"), league=evaluated), "")
+        self.assertIn("times are medians in 1 case of this run", said)
+        self.assertNotIn(
+            "of this run",
+            front.front_html(self.make(cases=self.csv("a/auto", "b/auto"), league=self.csv("b/auto", "a/auto")), ""),
+        )
         self.assertEqual(where.listed_cases(made), {})
         self.assertIn("an evaluation beside this run", where.where_html(made))
+
+    def test_times_of_several_machines_are_not_shown(self) -> None:
+        self.make(cases=self.csv("a/auto", "b/auto"))
+        self.assertEqual(len(front.make_front(self.folder).timed), 1)
+        mixed = front.make_front(self.folder, mixed_times=True)
+        self.assertEqual((len(mixed.ratings), mixed.timed), (1, []))
 
     def test_what_is_no_league_is_told(self) -> None:
         with self.assertRaisesRegex(RecordError, "cases.csv"):

@@ -187,6 +187,17 @@ class Charts(Folder):
         self.assertEqual(high["metrics"]["l2"][0], 0.05)
         self.assertNotIn("run", low)
 
+    def test_many_shapes_without_families_make_a_chart_by_shape_even_if_their_names_end_in_numbers(self):
+        names = [f"zoo-{word}-{k}" for k, word in enumerate(["line", "point"] * 35)]
+        plot_samples.write_report(
+            self.folder, plot_samples.report("zoo", dict.fromkeys(names, 0), [run(dataset=name) for name in names])
+        )
+        experiments = load(self.folder)
+        (chart,) = charts(experiments)
+        self.assertEqual((chart["kind"], chart["x"][:2], len(chart["x"])), ("shape", ["Zoo-Line-0", "Zoo-Point-1"], 70))
+        made = columns(experiments)["columns"]
+        self.assertEqual((made["family"]["words"], set(made["member"]["values"])), (names, {None}))
+
     def test_a_failure_is_infinitely_bad_in_a_class_of_convexity(self):
         def chart_with(failures):
             def star(k, **more):

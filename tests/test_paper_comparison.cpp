@@ -79,6 +79,21 @@ TEST(PaperComparison, OfLettersTakesTheMeans) {
       << *report::reason_of(measured);
 }
 
+TEST(PaperComparison, FailuresOfMethodsThatThePaperDoesNotHaveNarrowNothing) {
+  json report = letters_report();
+  int changed = 0;
+  for (json& run : report["runs"]) {
+    if (run["method"] != "postgis" || run["dataset"] != "letter_z") continue;
+    run["status"] = "timeout";
+    run["detail"] = "no answer within 120 s";
+    ++changed;
+  }
+  ASSERT_EQ(changed, 1);
+  const auto error = find(report::compare_with_paper(report), "polylidar", "error");
+  ASSERT_TRUE(error);
+  EXPECT_DOUBLE_EQ(error->measured.value_or(-1), 15);
+}
+
 TEST(PaperComparison, OfFloorsIsWithTheTableOfFloors) {
   const auto comparisons = report::compare_with_paper(
       report_on_shapes({{"floor-1", 80000, 0.5, 48, 0.022}, {"floor-2", 90000, 0.5, 48, 0.022}}));

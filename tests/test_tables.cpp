@@ -211,6 +211,8 @@ TEST(Ratios, AFailureIsInfinitelyBadOnEitherSide) {
   const std::string line = line_with(crashed, "| CGAL", crashed.find("ratios to Polylidar"));
   expect_says(line, "| 6 of 6 | 5.95 |");
   expect_says(line, "|     0 | 5.95 |");
+  const std::string own = line_with(crashed, "| Polylidar (paper)", crashed.find("ratios to Polylidar"));
+  expect_says(own, "| 5 of 6 |");
 }
 
 TEST(Tables, ARowSaysItsNumberOfRepetitionsWhereItIsNotTheUsualOne) {

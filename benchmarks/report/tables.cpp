@@ -102,6 +102,21 @@ std::vector<table::Column> ratio_columns(bool times) {
   return columns;
 }
 
+/// How many of the cases that it has the line solved, failures of the reference's included.
+table::Cell solved_cell(const TableContext& context, const Line& line, const std::vector<Case>& cases) {
+  std::size_t tried = 0;
+  std::size_t solved = 0;
+  for (const Case& which : cases) {
+    const Runs runs = context.measurements.find(line, which);
+    if (is_missing(runs)) continue;
+    ++tried;
+    solved += first_failure(runs) == nullptr ? 1U : 0U;
+  }
+  table::Cell cell = solved;
+  cell.of = {static_cast<double>(tried), 0};
+  return cell;
+}
+
 /// What the paper's text says of its figure in one table: every method beside Polylidar, and what holes
 /// change.
 std::optional<table::Table> ratio_table(const TableContext& context, const std::vector<Case>& cases) {
@@ -116,9 +131,7 @@ std::optional<table::Table> ratio_table(const TableContext& context, const std::
   for (const Line& line : lines) {
     const Ratios errors = metric_ratios(context.measurements, line, reference, cases, "l2");
     const Ratios slower = time_ratios(context.measurements, line, reference, cases);
-    const Ratios& counted = errors.cases > slower.cases ? errors : slower;
-    std::vector<table::Cell> cells = {label(context, line), counted.cases - counted.failures};
-    cells.back().of = {static_cast<double>(counted.cases), 0};
+    std::vector<table::Cell> cells = {label(context, line), solved_cell(context, line, cases)};
     const auto append = [&](const std::vector<table::Cell>& more) {
       cells.insert(cells.end(), more.begin(), more.end());
     };

@@ -34,7 +34,7 @@ def draw(run: Run) -> Iterator[Drawn]:
         f"knows the truth, over {cases} test cases, with 95 % intervals by shape. One evaluation is a blind choice: "
         f"{tuning['budget']['sweep']} positions an octave apart are tried in random order, then "
         f"{tuning['budget']['refinement']} steps of a golden-section search. Left of it, without any search: "
-        f"{_chosen_words()}. The further a mark lies above the end of the curve, the more the choice costs. Above the panel: "
+        f"{_chosen_words()}. The further a mark lies above the end of the curve, the more the choice costs. Not drawn: where "
         "most cases fail.",
     )
 

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
 from records import read_json
-from report_common import PROTOCOLS
+from report_common import PROTOCOLS, method_look
 from run import Drawn, Run, Skipped
 from style import FULL_WIDTH, in_order, line_options, new_figure, number, panel_letter, series_legend
 
@@ -27,13 +27,22 @@ def draw(run: Run) -> Iterator[Drawn]:
         raise Skipped(f"{path} has no group of two methods with a case")
     empty = "; ".join(_GROUPS[group] for group in _GROUPS if group in profiles and group not in groups)
     without = f" Without a case, and so not shown: {empty}." if empty else ""
+    gone = [
+        f"{method_look(one['method'])['title']} ({one['protocol']})" for group in groups for one in profiles[group]["left_out"]
+    ]
+    without += f" Left out, with less than half of the cases: {', '.join(gone)}." if gone else ""
+    shapes = (
+        "all of test shapes, on which no parameter was searched but the oracle's"
+        if league["split"]["cases_of"] == "test"
+        else "of all shapes, also those on which parameters were searched"
+    )
     figure = _figure(league["taus"], [profiles[group] for group in groups])
     counts = "; ".join(f"{_GROUPS[group]}, {profiles[group]['cases']} cases" for group in groups)
     caption = (
         "Performance profiles: on which share of the cases, by weight, a method's L2 error is at most τ times the smallest one among "
         "those that know as much. At τ = 1 the share of cases on which it is the best, further right how seldom it is "
-        f"far behind; a failure counts as infinitely bad. {counts[:1].upper()}{counts[1:]}; all of test shapes, on which no "
-        f"parameter was searched but the oracle's. Pale markers: the method's default. Methods with the same polygons lie on one curve.{without}"
+        f"far behind; a failure counts as infinitely bad. {counts[:1].upper()}{counts[1:]}; {shapes}. "
+        f"Pale markers: the method's default. Methods with the same polygons lie on one curve.{without}"
     )
     yield Drawn("profiles", figure, caption)
 

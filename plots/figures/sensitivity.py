@@ -24,8 +24,8 @@ def draw(run: Run) -> Iterator[Drawn]:
     figure = _figure(methods)
     cases = max(point["cases"] for one in methods for point in one["curve"])
     caption = (
-        "Sensitivity: L2 error against the method's parameter, as a multiple of the error that the method has with the "
-        f"best parameter of each case; medians over up to {cases} training cases, the bands of the paper's methods hold the middle half. (a) parameters that "
+        "Sensitivity: L2 error against the method's parameter, as a multiple of the least error that the method has on the case "
+        f"at any of these values; medians over up to {cases} training cases, without those where every value fails; the bands of the paper's methods hold the middle half. (a) parameters that "
         "are lengths, in spacings h (the square root of the area of the points' convex hull over their number), one axis "
         "for all of them; (b) any parameter, in octaves from the one that is best on the training shapes. The wider the "
         "valley, the less the choice matters; the octaves beside the names are the tolerance, the width in which the error "

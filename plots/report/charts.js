@@ -48,7 +48,7 @@ export class Charts extends PlotSection {
       .map(([protocol, [, words]]) => `${words}, ${protocol}`);
     return (
       "Drag over a chart to zoom in, or hold Ctrl and turn the wheel; on a touch screen pinch. Bands: the 95 % interval " +
-      `of the median; by convexity, nine in ten shapes. Lines by who chose the parameters: ${lines.join("; ")}. ` +
+      `of the median; by convexity, nine in ten shapes. An axis with a 0 on it is linear. Lines by who chose the parameters: ${lines.join("; ")}. ` +
       "Time against error: a dot with a rim has parameters by another rule than the paper’s."
     );
   }

@@ -28,7 +28,13 @@ function startComparison() {
       return null;
     };
     hooks.forests = build("ratios-place", Forests, pairs, report.changes, "No run has a time in both.");
-    hooks.charts = build("charts-place", BothCharts, charts, charts, "No shape has a chart in both.");
+    hooks.charts = build(
+      "charts-place",
+      BothCharts,
+      charts,
+      report.metrics.some((metric) => metric.charted) ? charts : [],
+      "No shape has a chart in both.",
+    );
     whenNear(document.getElementById("runs"), hooks.loadTable);
     document.documentElement.dataset.ready = "charts";
   });

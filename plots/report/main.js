@@ -3,6 +3,7 @@ import { openCase } from "./case_dialog.js";
 import { hasPicture } from "./cases.js";
 import { Charts } from "./charts.js";
 import { Rows, once, readJson, unpack, whenNear } from "./data.js";
+import { make } from "./format.js";
 import { startFront } from "./front.js";
 import { mountGallery } from "./gallery.js";
 import { fit } from "./picture.js";
@@ -26,7 +27,12 @@ function startReport() {
   const parts = once(() => unpack(readJson("parts")));
   startFront(gallery, parts, hooks.loadTable);
   hooks.ready = charts().then((decoded) => {
-    if (decoded.length) hooks.charts = new Charts(document.getElementById("charts-place"), report, decoded, gallery);
+    const place = document.getElementById("charts-place");
+    if (decoded.length && report.metrics.some((metric) => metric.charted)) {
+      hooks.charts = new Charts(place, report, decoded, gallery);
+    } else {
+      place.append(make("p", {}, "No run has a result, so there are no charts."));
+    }
     document.documentElement.dataset.ready = "charts";
   });
   whenNear(document.getElementById("runs"), hooks.loadTable);
