@@ -4,7 +4,7 @@
 Tables are made of what stays: every run with its status, time and errors, and the first twelve digits of the hashes of its
 points and of its result, by which a new run can be compared with it. Left out are the metrics that no table of such an
 experiment has, the digits of times and of the others behind the fifth (tables show three), but for the metrics that tell
-whether two methods gave the same polygons (benchmarks/report/headline.cpp), the times of the steps, the canaries' times
+whether two methods gave the same polygons (benchmarks/report/headline.cpp; none where there is one method), the times of the steps, the canaries' times
 (their verdict stands in the flags), and the identity, which is a hash of what stays.
 """
 
@@ -24,13 +24,13 @@ def shortened(value: object) -> object:
     return type(value)(float(f"{value:.5g}")) if type(value) in (int, float) else value
 
 
-for line in sys.stdin:
-    row = json.loads(line)
+rows = [json.loads(line) for line in sys.stdin]
+# One method has nobody to be compared with.
+KEPT = METRICS + (WHOLE_METRICS if len({row["method"] for row in rows if "method" in row}) > 1 else ())
+for row in rows:
     if "name" in row:
         row["metrics"] = {
-            name: value if name in WHOLE_METRICS else shortened(value)
-            for name, value in row["metrics"].items()
-            if name in METRICS + WHOLE_METRICS
+            name: value if name in WHOLE_METRICS else shortened(value) for name, value in row["metrics"].items() if name in KEPT
         }
         row["phases_ns"] = [{name: shortened(times[name]) for name in PHASES if name in times} for times in row["phases_ns"]]
         row["time_ns"] = [shortened(time) for time in row["time_ns"]]

@@ -34,7 +34,7 @@ TEST(Reference, IsAWholeBench) {
     runs[report.at("plan").at("name").get<std::string>()] = report.at("runs").size();
     EXPECT_FALSE(report.at("tool").at("dirty").get<bool>());
   }
-  const std::map<std::string, std::size_t> expected = {{"rgbd", 525},     {"states", 828}, {"alphabet", 936},
+  const std::map<std::string, std::size_t> expected = {{"rgbd", 570},     {"states", 900}, {"alphabet", 1014},
                                                        {"random", 41200}, {"steps", 9},    {"zoo", 1846},
                                                        {"real", 806},     {"towns", 910}};
   EXPECT_EQ(runs, expected);
