@@ -4,8 +4,9 @@
 Tables are made of what stays: every run with its status, time and errors, and the first twelve digits of the hashes of its
 points and of its result, by which a new run can be compared with it. Left out are the metrics that no table of such an
 experiment has, the digits of times and of the others behind the fifth (tables show three), but for the metrics that tell
-whether two methods gave the same polygons (benchmarks/report/headline.cpp; none where there is one method), the times of the steps, the canaries' times
-(their verdict stands in the flags), and the identity, which is a hash of what stays.
+whether two methods gave the same polygons (benchmarks/report/headline.cpp), the times of the steps, the canaries' times
+(their verdict stands in the flags), and the identity, which is a hash of what stays. Where there is one method, what
+tells the same polygons is left out too: there is nobody to be compared with.
 """
 
 import json
@@ -25,7 +26,6 @@ def shortened(value: object) -> object:
 
 
 rows = [json.loads(line) for line in sys.stdin]
-# One method has nobody to be compared with.
 KEPT = METRICS + (WHOLE_METRICS if len({row["method"] for row in rows if "method" in row}) > 1 else ())
 for row in rows:
     if "name" in row:

@@ -32,6 +32,13 @@ class ThinRecords(unittest.TestCase):
         self.assertEqual(row["metrics"]["l2"], 0.12346)
         self.assertNotIn("iou", row["metrics"])
 
+    def test_one_method_keeps_nothing_to_tell_the_same_polygons_by(self) -> None:
+        whole = plot_samples.run(
+            "polylidar", "paper", "ca", 2000, l2=0.1, l2_convex_hull=0.4, area=13900.123456789012, vertices=12
+        )
+        row, _ = thinned(whole, plot_samples.run("polylidar", "default", "ca", 2000))
+        self.assertEqual({"area", "vertices", "l2", "l2_convex_hull"} & row["metrics"].keys(), {"l2", "l2_convex_hull"})
+
     def test_the_convex_hull_is_not_worse_than_itself(self) -> None:
         for error in (0.123456789, 0.123454321):
             [row] = thinned(plot_samples.run("convex_hull", "default", "ca", 2000, l2=error, l2_convex_hull=error))

@@ -163,8 +163,7 @@ table::Table differences_table(const std::vector<json>& reports) {
                           " times the paper's or more, or the paper's is " + limit.dump() +
                           " times ours or more, and where nothing was measured. The paper's Figure 8 has no "
                           "numbers to compare; what its text says of it is among the claims. Means here are "
-                          "over the cases that all "
-                          "of the paper's methods solved.");
+                          "over the cases that all of the paper's methods solved.");
   for (std::string& reason : reasons.marked()) table.remarks.push_back(std::move(reason));
   return table;
 }

@@ -50,7 +50,19 @@ before(() => {
   writeFileSync(output("run", "report.json"), JSON.stringify(report));
   writeFileSync(output("run", "cases.csv"), cases_csv(report));
   plot("make_report.py", output("run"), "--out", output(FILE));
+  write_failed_report();
 });
+
+/** The same run, as if every method had crashed. */
+function write_failed_report() {
+  const failed = write_invented_report("failed");
+  const nothing = { status: "crash", detail: "SIGSEGV", time_ns: [], phases_ns: [], metrics: {}, output_sha256: "" };
+  const no_statistics = { time: null, paper_time: null, l2: null, l2_paper: null, iou: null, valid: null };
+  for (const run of failed.runs) Object.assign(run, nothing);
+  for (const row of failed.summary.rows) Object.assign(row, no_statistics, { status: "crash" });
+  writeFileSync(output("failed", "report.json"), JSON.stringify(failed));
+  plot("make_report.py", output("failed"), "--out", output("failed.html"));
+}
 
 function row_named(name) {
   const row = report.runs.find((run) => run.name === name);
@@ -231,6 +243,11 @@ page_test("what is drawn in the chart is what its data say, and a method can be 
   assert.equal(await toggle.getAttribute("aria-pressed"), "false");
   await toggle.click();
   assert.ok((await drawn()).includes(name));
+});
+
+test_of_file("a run in which everything failed has a page, which says so", "failed.html", {}, async (page) => {
+  assert.match(await page.locator("#charts-place").innerText(), /^No run has a result, so there are no charts\.$/);
+  assert.ok((await (await open_table(page)).first().innerText()).includes("crash"));
 });
 
 page_test("the table has every run with its status and numbers", {}, async (page) => {
