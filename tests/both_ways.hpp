@@ -12,7 +12,7 @@
 namespace polylidar::testing {
 
 // Takes the way without the interior wherever it can be gone, however little it pays.
-constexpr detail::InteriorGuard kAlways{0, 1e5, 1, 1};
+constexpr detail::InteriorGuard kAlways{0, 1e5, 1, 1, 1};
 
 // Which block of a field by corners a point belongs to.
 using BlockOf = std::function<std::uint32_t(const Point&)>;

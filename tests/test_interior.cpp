@@ -311,7 +311,8 @@ TEST(InteriorLeftOut, GivesTheShapesOfTheDefault) {
     ++(are_few ? counts_of_few : counts)[extractor.statistics().way];
     if (extractor.statistics().way != Way::kInteriorLeftOut) continue;
     EXPECT_EQ(extractor.count_triangles(), steps.count_triangles());
-    EXPECT_LT(extractor.statistics().triangulated_points, points.size() / 2);
+    EXPECT_LE(static_cast<double>(extractor.statistics().triangulated_points),
+              detail::InteriorGuard().most_gathered * static_cast<double>(points.size()));
   }
   EXPECT_GT(counts_of_few[Way::kInteriorLeftOut], 4U);
   EXPECT_GT(counts[Way::kInteriorLeftOut], 8U);

@@ -81,7 +81,7 @@ std::optional<Way> InteriorPart::choose(std::span<const Point> points, const Coo
   find_uncertain_points(points, pool);
   mark_reach(pool);
   gather(points, pool);
-  const double most = guard.most_triangulated * static_cast<double>(points.size());
+  const double most = guard.most_gathered * static_cast<double>(points.size());
   if (static_cast<double>(points_.size()) > most) return Way::kMuchOutline;
   return std::nullopt;
 }

@@ -33,8 +33,11 @@ struct InteriorGuard {
   double most_cells_a_point = 46;
   /// Largest share of uncertain points, estimated from a few hundred points that are looked at first.
   double most_uncertain = 0.13;
-  /// Largest share of the points that would have to be triangulated.
+  /// Largest share of the points that would have to be triangulated, estimated before they are gathered.
   double most_triangulated = 0.5;
+  /// Largest share of the points that the part may have once it is gathered. It is larger, as the time to
+  /// find the part is spent then.
+  double most_gathered = 0.8;
 };
 
 /// The radius r below which every Delaunay triangle passes the filter, in exact arithmetic. The limit that
