@@ -166,7 +166,7 @@ def _league(rating: Rating, timed: Division | None, pages: Mapping[str, str]) ->
         shown += details(f"{len(rest)} more", table(_LEAGUE, "".join(rest), " class='league'", caption))
     if rating.division.left_out:
         names = sentence_list([short_name(one, rating.division.left_out) for one in rating.division.left_out])
-        shown += f"<p class='muted'>With less than half of the cases, and so not rated: {text(names)}.</p>"
+        shown += f"<p class='muted'>Not rated, as the others have more cases in common without them: {text(names)}.</p>"
     return f"<div class='league-box' id='league-{rating.division.name}'>{shown}</div>"
 
 

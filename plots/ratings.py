@@ -94,7 +94,7 @@ class Division:
 
     name: str
     results: Results
-    left_out: list[Series]  # whose cases have less than half of the weight of another one's
+    left_out: list[Series]  # without whom the others have enough cases in common
 
 
 def read(path: Path) -> Results:
@@ -138,8 +138,7 @@ def division(results: Results, name: str) -> Division | None:
     known = ~np.isnan(results.errors)
     had = [np.any([known[i] for i in members if results.entrants[i].method == one], axis=0) for one in methods]
     weights = np.array([case.weight for case in results.cases]) * (np.sum(had, axis=0) > 1)
-    share = {i: float(np.sum(weights[~np.isnan(results.errors[i])])) for i in members}
-    chosen = [i for i in members if 2 * share[i] >= max(share.values())]
+    chosen = _with_common_cases(members, known, weights)
     if len(chosen) < 2:
         return None
     errors = results.errors[chosen]
@@ -148,6 +147,23 @@ def division(results: Results, name: str) -> Division | None:
         return None
     left_out = [results.entrants[i] for i in members if i not in chosen]
     return Division(name, results.of(chosen, common), left_out)
+
+
+def _with_common_cases(members: list[int], known: np.ndarray, weights: np.ndarray) -> list[int]:
+    """Those members whose common cases have at least half of the weight of what one of them has. Until they do, one after
+    another leaves: the one without whom the others have most in common, of several the one with the fewest cases."""
+    share = {i: float(known[i] @ weights) for i in members}
+    # Sums of the same weights in another order differ in the last digits.
+    half = max(share.values(), default=0.0) / 2 * (1 - 1e-9)
+
+    def common(some: list[int]) -> float:
+        return round(float(known[some].all(axis=0) @ weights), 9)
+
+    chosen = members
+    while len(chosen) > 2 and common(chosen) < half:
+        leaves = max(chosen, key=lambda one: (common([i for i in chosen if i != one]), -round(share[one], 9)))
+        chosen = [i for i in chosen if i != leaves]
+    return [i for i in chosen if share[i] >= half]
 
 
 @dataclass(frozen=True)

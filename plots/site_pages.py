@@ -222,7 +222,7 @@ def _method(run: SiteRun, name: str, method: dict[str, Any]) -> list[Section]:
 def _unrated(run: SiteRun, name: str) -> str:
     left_out = [series for rating in run.front.ratings for series in rating.division.left_out]
     if any(series.method == name for series in left_out):
-        return "It has less than half of the cases, and so is not rated."
+        return "It is not rated, as the others have more cases in common without it."
     return "This run has no results of it that can be rated."
 
 

@@ -76,6 +76,14 @@ class Divisions(unittest.TestCase):
         self.assertEqual([one.task for one in found.results.cases], ["c0", "c1"])
         self.assertEqual(found.left_out, [Series("c", "auto")])
 
+    def test_who_leaves_the_others_few_cases_in_common_is_left_out(self) -> None:
+        # Each has more than half of the cases, but all of them have only one.
+        without = {"a": [], "b": [], "first": [0, 1], "also": [0, 1], "last": [3, 4]}
+        errors = {name: [math.nan if i in gone else 1 + len(name) for i in range(5)] for name, gone in without.items()}
+        found = ratings.division(results(errors), "blind")
+        self.assertEqual([one.task for one in found.results.cases], ["c2", "c3", "c4"])
+        self.assertEqual(found.left_out, [Series("last", "auto")])
+
     def test_cases_that_only_one_method_had_take_nobody_out(self) -> None:
         errors = {"alone": [1.0] * 10, "alone/default": [1.0] * 10, "other": [math.nan] * 8 + [2.0, 2.0]}
         found = ratings.division(results(errors), "blind")

@@ -199,7 +199,7 @@ class What(Folder):
             f"has place {place} of {len(informed.standings)} among the different results of methods that know something of the truth",
             told,
         )
-        self.assertIn("It has less than half of the cases", words(self.site / "methods" / "convex_hull.html"))
+        self.assertIn("the others have more cases in common without it", words(self.site / "methods" / "convex_hull.html"))
         self.assertIn("This run has no results of it", words(self.site / "methods" / "postgis_legacy.html"))
 
     def test_a_method_has_up_to_ten_pictures_from_the_best_to_the_worst(self) -> None:
