@@ -29,6 +29,7 @@ const SLOWER = 1.5;
 const FASTER = 0.5;
 const FAILS = "spatialite/ca/n:2000/holes:1/protocol:paper";
 const WORKS = "spatialite/hi/n:64000/holes:0/protocol:paper";
+const CRASHED = { status: "crash", detail: "SIGSEGV", time_ns: [], phases_ns: [], metrics: {}, output_sha256: "" };
 const LARGER_ERROR = "polylidar/ca/n:64000/holes:0/protocol:paper";
 
 let invented;
@@ -101,15 +102,18 @@ before(() => {
   invented.metrics = JSON.parse(hullbench("metrics", "--json"));
   const factor = (run) => ({ polylidar: FASTER, cgal_alpha_shape: SLOWER })[run.method] ?? 1;
   const elsewhere = (made) => Object.assign(made.environment, { machine_id: "feedbeef" });
+  const all_fail = (made) => made.runs.forEach((run) => Object.assign(run, CRASHED));
   for (const [name, ...how] of [
     ["a", () => 1],
     ["b", factor, change_b],
     ["other", factor, elsewhere],
+    ["failed", () => 1, all_fail],
   ])
     write_run(name, report_with(...how));
   compare("before_after", "a", "b");
   compare("machines", "a", "other");
   compare("itself", "a", "a");
+  compare("failures", "failed", "failed");
 });
 
 function page_test(name, { page = "before_after", ...options }, body) {
@@ -330,6 +334,12 @@ page_test("what differs between the runs is marked", {}, async (page) => {
     .evaluateAll((all) => all.map((row) => row.innerText.replace(/\s+/g, " ")));
   assert.equal(rows.length, 1, rows.join("\n"));
   assert.match(rows[0], /^≠ differs Program hullbench .* commit 0123456789.* commit fedcba98/);
+});
+
+page_test("two runs in which everything failed have a page, which says so", { page: "failures" }, async (page) => {
+  assert.equal(await page.locator("#charts-place").innerText(), "No shape has a chart in both.");
+  assert.equal(await page.locator("#ratios-place").innerText(), "No run has a time in both.");
+  assert.ok((await table_rows(page)).length > 0);
 });
 
 for (const screen of ["1280 light", "390 dark"]) {
