@@ -14,11 +14,13 @@ import numpy as np
 from front_charts import charts_html, color_of
 from markup import details, link_to_method, named, row_of, table
 from ratings import KNOWS, Division, Rating, Standing, divisions, has_times, rate, read, twins, typical_times
-from records import Series
+from records import Series, read_json
 from report_common import count_of, number, sentence_list, short_name, text
 
 # Shown at once; the others are behind a click.
 FIRST_ROWS = 8
+# Of a commit.
+BUILD_DIGITS = 9
 # Exceptions that the sentence names.
 _MOST_EXCEPTIONS = 3
 
@@ -31,6 +33,7 @@ class Front:
     timed: list[Division]  # the run's own, with times
     own: bool  # the ratings are of the run itself, not of an evaluation beside it
     why_empty: str  # a sentence where there is no rating
+    build: str = ""  # commit of the build that was rated, of an evaluation that says it
     # Of pages that stand elsewhere: those of methods, by name, and the report; empty: there is none.
     pages: Mapping[str, str] = field(default_factory=dict)
     report: str = ""
@@ -47,7 +50,11 @@ def make_front(folder: Path, mixed_times: bool = False) -> Front:
     rated = [rate(one) for one in divisions(read(league) if league.is_file() else own)]
     timed = [one for one in divisions(own) if has_times(one)] if own and not mixed_times else []
     why = "" if rated else "Nobody leads: no two methods that know as much have a case with a truth in common."
-    return Front(rated, timed, not league.is_file(), why)
+    return Front(rated, timed, not league.is_file(), why, _build(folder / "league.json") if league.is_file() else "")
+
+
+def _build(league: Path) -> str:
+    return read_json(league, "league.schema.json")["tool"].get("commit", "") if league.is_file() else ""
 
 
 def front_html(front: Front, strip: str) -> str:
@@ -57,7 +64,7 @@ def front_html(front: Front, strip: str) -> str:
 
     def shown(rating: Rating) -> str:
         own = timed.get(rating.division.name)
-        return f"<p class='lead'>{lead_sentence(rating, own)}</p>{charts_html(own)}{_league(rating, own, front.pages)}"
+        return f"<p class='lead'>{lead_sentence(rating, own)}</p>{charts_html(own)}{_league(rating, own, front)}"
 
     first, *others = front.ratings
     more = (details(f"Methods that {KNOWS[one.division.name]}", shown(one), " class='wide'") for one in others)
@@ -153,11 +160,13 @@ _LEAGUE = {
 }
 
 
-def _league(rating: Rating, timed: Division | None, pages: Mapping[str, str]) -> str:
+def _league(rating: Rating, timed: Division | None, front: Front) -> str:
     every = [one.series for one in rating.standings]
     times = typical_times(timed) if timed else {}
-    rows = [_league_row(place, line, every, times, pages) for place, line in enumerate(lines_of(rating), 1)]
+    rows = [_league_row(place, line, every, times, front.pages) for place, line in enumerate(lines_of(rating), 1)]
     caption = f"League of {_cases(rating)}; methods with the same results share a line"
+    if front.build:
+        caption += f"; the ranks are of build {text(front.build[:BUILD_DIGITS])}"
     if timed and (where := _where_timed(rating, timed)):
         caption += f"; times are medians{where}"
     shown = table(_LEAGUE, "".join(rows[:FIRST_ROWS]), " class='league'", caption)

@@ -1,8 +1,11 @@
 """The first screen of the report (plots/front.py, front_charts.py, where.py, strip.py, svg.py): what it says beside the numbers that it is made of."""
 
+import json
 import math
 import re
+import shutil
 import unittest
+from pathlib import Path
 
 import numpy as np
 
@@ -80,6 +83,12 @@ class Folder(WithFolder):
         )
         self.assertEqual(where.listed_cases(made), {})
         self.assertIn("an evaluation beside this run", where.where_html(made))
+
+    def test_the_build_of_an_evaluation_is_named(self) -> None:
+        league = Path(__file__).parents[1] / "results" / "reference" / "league.json"
+        shutil.copy(league, self.folder)
+        said = front.front_html(self.make(cases=self.csv("a/auto", "b/auto"), league=self.csv("b/auto", "a/auto")), "")
+        self.assertIn(f"the ranks are of build {json.loads(league.read_text())['tool']['commit'][:9]}", said)
 
     def test_times_of_several_machines_are_not_shown(self) -> None:
         self.make(cases=self.csv("a/auto", "b/auto"))
