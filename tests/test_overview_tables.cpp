@@ -106,15 +106,6 @@ TEST(ParametersTable, TakesARulesFormulaFromTheReport) {
   EXPECT_EQ(row_of(report::parameters_table({report}), {"Polylidar (paper)"})[2], "paper_alpha");
 }
 
-TEST(ParametersTable, SaysWhatTheLengthInAFormulaIs) {
-  json report = report_with_methods({method("polylidar", "paper", {{"alpha", {{"rule", "paper_alpha"}}}})});
-  report["rules"]["paper_alpha"] = "0.80 S";
-  expect_says(report::parameters_table({report}).remarks.at(0), " S is ");
-  report["rules"]["paper_alpha"] = "0.22 P";
-  expect_says(report::parameters_table({report}).remarks.at(0), " P is ");
-  EXPECT_EQ(report::parameters_table({report}).remarks.at(0).find(" S is "), std::string::npos);
-}
-
 TEST(ParametersTable, HasValuesGivenByCaseAColumnADataSet) {
   const json cases = {{"ca", 2.0}, {"ca/holes", 1.25}, {"hi/holes", 3}};
   const json report =

@@ -527,6 +527,16 @@ TEST(Field, AnEntryOfThePlanChangesWhatItSaysOfOneThatIsTaken) {
   EXPECT_TRUE(expected.contains("note") && expected.contains("parameters"));
   expected["repetitions"] = 3;
   EXPECT_EQ(plan::plan_to_json(plan).at("methods").at(0), expected);
+  const json without_holes = {
+      {"method", "spatialite"}, {"protocol", "auto"}, {"parameters", {{"allow_holes", 0}}}};
+  const plan::Plan other = plan_of_field({{"field", {"spatialite/auto"}}, {"methods", {without_holes}}});
+  json parameters = plan::plan_to_json(plan_of_field({{"field", {"spatialite/auto"}}}))
+                        .at("methods")
+                        .at(0)
+                        .at("parameters");
+  EXPECT_GE(parameters.size(), 2U);
+  parameters["allow_holes"] = 0;
+  EXPECT_EQ(plan::plan_to_json(other).at("methods").at(0).at("parameters"), parameters);
   EXPECT_EQ(plan.methods[3].parameters.size(), 1U) << "nothing comes from what is not taken";
   const json once = expect_to_survive_json(plan);
   EXPECT_FALSE(once.contains("field")) << "records are complete";

@@ -150,8 +150,7 @@ Box bounds_of(LabelledStream points, PointsProgress& progress) {
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (i % kBlock == 0) progress.show("measuring", i, points.size());
     const Point point = points.next().first;
-    box = {{std::min(box.min.x, point.x), std::min(box.min.y, point.y)},
-           {std::max(box.max.x, point.x), std::max(box.max.y, point.y)}};
+    box = joined(box, {point, point});
   }
   return box;
 }

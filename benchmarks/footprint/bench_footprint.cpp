@@ -5,7 +5,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -40,6 +39,7 @@
 #include "benchmarks/table/writers.hpp"
 #include "datasets/datasets.hpp"
 #include "tool/points/point_file.hpp"
+#include "tool/program/command_line.hpp"
 #include "tool/shapes/polygon_writers.hpp"
 
 extern char** environ;
@@ -82,25 +82,6 @@ struct Way {
   Times times = {};
   MultiPolygon shape = {};
 };
-
-Ring ring_of(const json& coordinates) {
-  Ring ring;
-  for (std::size_t i = 0; i + 1 < coordinates.size(); ++i) {
-    ring.push_back({coordinates[i][0].get<double>(), coordinates[i][1].get<double>()});
-  }
-  return ring;
-}
-
-MultiPolygon shape_of(const json& geometry) {
-  MultiPolygon shape;
-  for (const json& polygon : geometry["coordinates"]) {
-    shape.emplace_back();
-    for (std::size_t r = 0; r < polygon.size(); ++r) {
-      (r == 0 ? shape.back().shell : shape.back().holes.emplace_back()) = ring_of(polygon[r]);
-    }
-  }
-  return shape;
-}
 
 /// Runs a program and drops its output. Throws std::runtime_error when it fails.
 void run_program(const std::vector<std::string>& command) {
@@ -191,7 +172,7 @@ class Comparison {
     std::ifstream file(index_);
     const json feature = json::parse(file)["features"][0];
     properties_ = feature["properties"];
-    return shape_of(feature["geometry"]);
+    return parse_geojson(feature);
   }
 
   void add(std::string name, std::size_t points, std::function<MultiPolygon()> make) {
@@ -380,12 +361,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--without-times", choice.without_times, "Errors only, as on a machine with other work");
   app.footer(std::string("Example: bench_footprint --n 1000000 --runs 3\n") + hullbench::kExitCodesHelp);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? hullbench::kExitOk : hullbench::kExitUsage;
-  }
-  return hullbench::exit_code_of("bench_footprint", std::cerr, [&] {
+  const auto compare = [&] {
     hullbench::catch_interruptions();
     try {
       hullbench::footprint::Comparison(choice).run();
@@ -393,5 +369,7 @@ int main(int argc, char** argv) {
       throw hullbench::ConfigurationError(error.what());
     }
     return hullbench::kExitOk;
-  });
+  };
+  return hullbench::exit_code_of("bench_footprint", std::cerr,
+                                 [&] { return polylidar::tool::parsed_action(app, compare, argc, argv)(); });
 }

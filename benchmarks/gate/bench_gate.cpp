@@ -2,7 +2,6 @@
 // two probes and calls it.
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <iostream>
 #include <string>
@@ -20,6 +19,7 @@
 #include "benchmarks/gate/gate_verdict.hpp"
 #include "benchmarks/gate/time_gate.hpp"
 #include "benchmarks/worker/worker_process.hpp"
+#include "tool/program/command_line.hpp"
 
 namespace {
 
@@ -149,14 +149,7 @@ int main(int argc, char** argv) {
     CLI::App app("Whether head is slower than base, or gives other results.", "bench_gate");
     Arguments arguments;
     add_options(app, arguments);
-    try {
-      app.parse(argc, argv);
-    } catch (const CLI::Success& request) {
-      app.exit(request);
-      return kExitOk;
-    } catch (const CLI::ParseError& error) {
-      throw ConfigurationError(std::string(error.what()) + "; 'bench_gate --help' shows what there is");
-    }
-    return run(arguments);
+    return polylidar::tool::parsed_action(
+        app, [&] { return run(arguments); }, argc, argv)();
   });
 }

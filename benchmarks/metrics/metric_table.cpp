@@ -20,22 +20,6 @@ MetricValue boundary_value(const Metrics& metrics, Value BoundaryScores::*which)
   return metrics.boundary ? optional_value<double>((*metrics.boundary).*which) : MetricValue();
 }
 
-MetricValue witness_value(const Metrics& metrics, std::optional<Witness> BoundaryScores::*which,
-                          double (*read)(const Witness&)) {
-  if (!metrics.boundary || !((*metrics.boundary).*which)) return {};
-  return read(*((*metrics.boundary).*which));
-}
-
-double distance_of(const Witness& witness) {
-  return witness.distance;
-}
-double x_of(const Witness& witness) {
-  return witness.place.x;
-}
-double y_of(const Witness& witness) {
-  return witness.place.y;
-}
-
 constexpr const char* kInvalid = "of an invalid result";
 constexpr const char* kInvalidOrEmpty = "of an invalid or empty result";
 constexpr const char* kPaper =
@@ -92,10 +76,21 @@ void add_area(Table& table) {
       kInvalid, "", [](const Metrics& m) { return optional_value(m.area.perimeter_ratio); });
 }
 
-void add_hausdorff(Table& table, const char* name, const std::string& definition,
-                   MetricValue (*distance)(const Metrics&), MetricValue (*x)(const Metrics&),
-                   MetricValue (*y)(const Metrics&)) {
+template <std::optional<Witness> BoundaryScores::*kWhich>
+void add_hausdorff(Table& table, const char* name, const std::string& definition) {
   const std::string function = "boundary_scores, boundary.cpp";
+  const auto distance = [](const Metrics& m) -> MetricValue {
+    if (!m.boundary || !((*m.boundary).*kWhich)) return {};
+    return ((*m.boundary).*kWhich)->distance;
+  };
+  const auto x = [](const Metrics& m) -> MetricValue {
+    if (!m.boundary || !((*m.boundary).*kWhich)) return {};
+    return ((*m.boundary).*kWhich)->place.x;
+  };
+  const auto y = [](const Metrics& m) -> MetricValue {
+    if (!m.boundary || !((*m.boundary).*kWhich)) return {};
+    return ((*m.boundary).*kWhich)->place.y;
+  };
   table.push_back({name, "boundary", "length", Better::kLower, definition, kInvalidOrEmpty, kHuttenlocher,
                    function, distance});
   table.push_back({std::string(name) + "_x", "boundary", "length", Better::kNone,
@@ -111,16 +106,10 @@ void add_hausdorffs(Table& table) {
                    "the larger one of hausdorff_to_truth and hausdorff_to_result", kInvalidOrEmpty,
                    kHuttenlocher, "boundary_scores, boundary.cpp",
                    [](const Metrics& m) { return boundary_value(m, &BoundaryScores::hausdorff); }});
-  add_hausdorff(
-      table, "hausdorff_to_truth", "largest distance of a point of R's boundary to T's boundary",
-      [](const Metrics& m) { return witness_value(m, &BoundaryScores::hausdorff_to_truth, &distance_of); },
-      [](const Metrics& m) { return witness_value(m, &BoundaryScores::hausdorff_to_truth, &x_of); },
-      [](const Metrics& m) { return witness_value(m, &BoundaryScores::hausdorff_to_truth, &y_of); });
-  add_hausdorff(
-      table, "hausdorff_to_result", "largest distance of a point of T's boundary to R's boundary",
-      [](const Metrics& m) { return witness_value(m, &BoundaryScores::hausdorff_to_result, &distance_of); },
-      [](const Metrics& m) { return witness_value(m, &BoundaryScores::hausdorff_to_result, &x_of); },
-      [](const Metrics& m) { return witness_value(m, &BoundaryScores::hausdorff_to_result, &y_of); });
+  add_hausdorff<&BoundaryScores::hausdorff_to_truth>(
+      table, "hausdorff_to_truth", "largest distance of a point of R's boundary to T's boundary");
+  add_hausdorff<&BoundaryScores::hausdorff_to_result>(
+      table, "hausdorff_to_result", "largest distance of a point of T's boundary to R's boundary");
 }
 
 void add_boundary(Table& table) {

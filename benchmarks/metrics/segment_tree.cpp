@@ -10,13 +10,9 @@ namespace hullbench::metrics {
 namespace {
 
 using polylidar::Box;
+using polylidar::joined;
 
 constexpr std::size_t kLeafSize = 4;
-
-Box united(const Box& a, const Box& b) {
-  return {{std::min(a.min.x, b.min.x), std::min(a.min.y, b.min.y)},
-          {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y)}};
-}
 
 /// Infinity for an empty box.
 double squared_distance(const Point& point, const Box& box) {
@@ -44,10 +40,10 @@ SegmentTree::SegmentTree(const MultiPolygon& shape) {
   boxes_.assign(2 * leaf_count_, polylidar::bounding_box({}));
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     Box& box = boxes_[leaf_count_ + i / kLeafSize];
-    box = united(box, united({segments_[i].from, segments_[i].from}, {segments_[i].to, segments_[i].to}));
+    box = joined(box, joined({segments_[i].from, segments_[i].from}, {segments_[i].to, segments_[i].to}));
   }
   for (std::size_t node = leaf_count_ - 1; node > 0; --node) {
-    boxes_[node] = united(boxes_[2 * node], boxes_[2 * node + 1]);
+    boxes_[node] = joined(boxes_[2 * node], boxes_[2 * node + 1]);
   }
 }
 

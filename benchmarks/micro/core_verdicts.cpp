@@ -74,8 +74,12 @@ const std::vector<Goal>& all_goals() {
     const json document = json::parse(in);
     std::vector<Goal> result;
     for (const json& entry : document.at("goals")) {
-      for (const json& points : entry.value("points", json::array({""}))) {
-        result.push_back(read_goal(entry, points));
+      for (const json& limits : entry.value("limits", json::array({json::object()}))) {
+        json one = entry;
+        one.update(limits);
+        for (const json& points : one.value("points", json::array({""}))) {
+          result.push_back(read_goal(one, points));
+        }
       }
     }
     return result;

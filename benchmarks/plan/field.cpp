@@ -81,7 +81,10 @@ std::vector<PlanEntry> entries_of(const json& plan, const Place& place) {
     PlanEntry& entry = entries[changed->second];
     // It says whose default the parameters were.
     if (own[i]["protocol"] == "default" && own[i].contains("parameters")) entry.value.erase("note");
+    json parameters = entry.value.value("parameters", json::object());
+    if (own[i].contains("parameters")) parameters.update(own[i]["parameters"]);
     entry.value.update(own[i]);
+    if (!parameters.empty()) entry.value["parameters"] = std::move(parameters);
     entry.place = there;
     unchanged.erase(changed);
   }

@@ -144,17 +144,6 @@ std::vector<std::pair<Line, std::string>> parameter_lines(const std::vector<json
   return lines;
 }
 
-/// What the letter in the rules' formulas is. Records from before the core's limit varied by place have P.
-std::string chosen_length(const table::Table& table) {
-  for (const std::vector<table::Cell>& row : table.rows) {
-    for (std::size_t column = 2; column < row.size(); ++column) {  // behind the method and the parameter
-      if (row[column].text().find(" P") != std::string::npos)
-        return "P is the perimeter that the core chooses from the points.";
-    }
-  }
-  return "S is the median of the sizes that the core chooses from the points.";
-}
-
 }  // namespace
 
 table::Table methods_table(const std::vector<json>& reports) {
@@ -186,8 +175,9 @@ table::Table parameters_table(const std::vector<json>& reports) {
   }
   table.remarks.push_back(
       "A is the area of the ground truth, n the number of points, A_hull the area of a convex hull: of the "
-      "ground truth for target_percent, else of the points. " +
-      chosen_length(table) + " A cell without text: the method is not in that experiment.");
+      "ground truth for target_percent, else of the points. S is the median of the sizes that the core "
+      "chooses "
+      "from the points. A cell without text: the method is not in that experiment.");
   return table;
 }
 

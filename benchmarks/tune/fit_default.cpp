@@ -1,7 +1,7 @@
 // build/fit_default: fits the numbers of the core's automatic limit on the training side of the split, prints
 // them beside those in the code, and says what the rule gives on the test side. Accuracy only: nothing is
 // timed, and the result does not depend on the machine.
-#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -28,6 +28,7 @@
 #include "datasets/datasets.hpp"
 #include "datasets/random.hpp"
 #include "polylidar/concave_hull.hpp"
+#include "tool/program/command_line.hpp"
 
 namespace hullbench::tune {
 namespace {
@@ -306,7 +307,8 @@ ExitCode fit(int tries, std::uint64_t seed, bool with_ablation) {
 }  // namespace hullbench::tune
 
 int main(int argc, char** argv) {
-  CLI::App app("Fits the numbers of the core's automatic limit, and says what it gives on the test side");
+  CLI::App app("Fits the numbers of the core's automatic limit, and says what it gives on the test side",
+               "fit_default");
   int tries = 400;
   std::uint64_t seed = 1;
   bool with_ablation = false;
@@ -319,14 +321,11 @@ int main(int argc, char** argv) {
                "Also the rule without each of its parts, and with each constant changed");
   app.add_option("--pictures", pictures, "Only write points and hulls into this file (JSON), for a figure");
   app.footer(hullbench::kExitCodesHelp);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? hullbench::kExitOk : hullbench::kExitUsage;
-  }
-  return hullbench::exit_code_of("fit_default", std::cerr, [&] {
+  const auto fit = [&] {
     if (pictures.empty()) return hullbench::tune::fit(tries, seed, with_ablation);
     hullbench::tune::write_pictures(pictures);
     return hullbench::kExitOk;
-  });
+  };
+  return hullbench::exit_code_of("fit_default", std::cerr,
+                                 [&] { return polylidar::tool::parsed_action(app, fit, argc, argv)(); });
 }

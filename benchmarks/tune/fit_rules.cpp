@@ -1,7 +1,7 @@
 // build/fit_rules: fits what stands as a number in a rule from the points, on the training side of the split,
 // and prints it beside what stands in the code. Accuracy only: nothing is timed, and the result does not
 // depend on the machine.
-#include <CLI/CLI.hpp>
+
 #include <cstdint>
 #include <iostream>
 #include <set>
@@ -17,6 +17,7 @@
 #include "benchmarks/table/writers.hpp"
 #include "benchmarks/tune/rule_fit.hpp"
 #include "benchmarks/worker/worker_process.hpp"
+#include "tool/program/command_line.hpp"
 
 namespace hullbench::tune {
 namespace {
@@ -90,7 +91,7 @@ ExitCode fit(const std::vector<std::string>& names, int seeds, std::int64_t poin
 }  // namespace hullbench::tune
 
 int main(int argc, char** argv) {
-  CLI::App app("Fits the constants of the rules that choose parameters from the points alone");
+  CLI::App app("Fits the constants of the rules that choose parameters from the points alone", "fit_rules");
   std::vector<std::string> plans = hullbench::tune::kPlans;
   int seeds = 1;
   std::int64_t points = 0;
@@ -99,11 +100,7 @@ int main(int argc, char** argv) {
   app.add_option("--points", points, "Points of each case, instead of the plans'")
       ->check(CLI::Range(3, 1000000));
   app.footer(hullbench::kExitCodesHelp);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? hullbench::kExitOk : hullbench::kExitUsage;
-  }
+  const auto fit = [&] { return hullbench::tune::fit(plans, seeds, points); };
   return hullbench::exit_code_of("fit_rules", std::cerr,
-                                 [&] { return hullbench::tune::fit(plans, seeds, points); });
+                                 [&] { return polylidar::tool::parsed_action(app, fit, argc, argv)(); });
 }
