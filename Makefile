@@ -213,7 +213,7 @@ reference: ## draw results/latest, keep it as the reference run and write its ta
 # The paper's methods and the fastest rivals up to 8000 points, the others at 2000.
 QUICK = ^(polylidar|cgal_alpha_shape|cgal_delaunay|delaunator|spatialite|postgis|postgis_legacy)/.*/n:[48]000/|/n:2000/
 
-bench-quick: ## the state shapes' tables for n <= 8000 and 3 repetitions, in under 2 minutes
+bench-quick: ## the state shapes' tables for n <= 8000 and 3 repetitions, in about two minutes
 	@$(call install,build bench)
 	@$(call build,release,$(WITHOUT_TESTS),hullbench)
 	@build/hullbench run states --filter '$(QUICK)' --repetitions 3

@@ -279,6 +279,16 @@ TEST_F(ChooseCommandTest, DegreesAreMetresAndDegreesAgain) {
   const std::string in_square_metres = std::to_string(std::llround(area_in("hull.geojson"))) + " m²";
   expect_says(text, "<dd>" + in_square_metres + "</dd>");
   EXPECT_EQ(read_json("own.geojson")["properties"]["method"], "polylidar");
+  write_text(folder() / "stray.csv", csv(points, "lon,lat\n") + "-9999,-9999\n");
+  expect_refusal(choose({"stray.csv"}), 2,
+                 "the coordinate system is longitude and latitude, but x is from -9999");
+}
+
+TEST_F(ChooseCommandTest, WhatIsSaidOfTheFileIsSaid) {
+  write_text(folder() / "points.csv", csv(square_without_a_disc(50, 5), "a,b\n"));
+  const Outcome outcome = choose({"points.csv", "--only", "convex_hull", "--draws", "0"});
+  EXPECT_EQ(outcome.code, 0);
+  expect_says(outcome.err, "the columns 'a' and 'b' are taken for x and y");
 }
 
 TEST_F(ChooseCommandTest, FailuresAreCards) {
@@ -345,6 +355,10 @@ TEST_F(ChooseCommandTest, BadInputIsOneSentence) {
   expect_refusal(choose({"points.csv", "--out", "a.html", "--write", "out.geojson"}), 2, "excludes");
   expect_refusal(choose({"points.csv", "--columns", "9,10"}), 2, "points.csv");
   expect_refusal(choose({"points.csv", "--n", "2"}), 2, "--n");
+  for (const char* option : {"--out", "--write"}) {
+    expect_refusal(choose({"points.csv", "--only", "polylidar/default", option, "points.csv"}), 2,
+                   "points.csv would replace the points that are read");
+  }
   expect_refusal(choose({"points.csv", "--only", "convex_hull", "--out", "nowhere/page.html"}), 1,
                  "cannot write nowhere/page.html");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder()), fs::directory_iterator()), 4)

@@ -508,6 +508,28 @@ TEST_F(CommandLineTest, TablesAndValidateOfWhatIsNotThere) {
   EXPECT_EQ(hullbench({"validate", "report.json"}).code, 1);
   write_text(folder() / "report.json", "{");
   EXPECT_EQ(hullbench({"validate", "report.json"}).code, 1);
+  write_text(folder() / "tune.json.xz",
+             "\xFD"
+             "7zXZ");
+  expect_refusal(hullbench({"validate", "tune.json.xz"}), 2, "tune.json.xz is compressed; give it unpacked");
+}
+
+TEST_F(CommandLineTest, ValidateTellsWhatAManifestsSchemaCannot) {
+  json manifest = {{"manifest_version", 1},
+                   {"name", "mine"},
+                   {"title", "Mine"},
+                   {"licence", "MIT"},
+                   {"citation", "A paper"},
+                   {"native_output", "a ring"},
+                   {"parameters", json::array()},
+                   {"capabilities", {{"holes", true}, {"several_polygons", false}}},
+                   {"command", {"true"}},
+                   {"runs", {{{"protocol", "auto"}, {"parameters", json::object()}}}}};
+  write_text(folder() / "mine.json", manifest.dump());
+  EXPECT_EQ(hullbench({"validate", "mine.json"}).code, 0);
+  manifest["runs"].push_back(manifest["runs"][0]);
+  write_text(folder() / "mine.json", manifest.dump());
+  expect_end(hullbench({"validate", "mine.json"}), 1, "repeats");
 }
 
 TEST_F(CommandLineTest, MetricsAreListed) {

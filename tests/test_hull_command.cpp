@@ -545,7 +545,9 @@ TEST_F(HullCommandTest, LabelsThatAreNumbersAreNumbers) {
     return found;
   };
   EXPECT_EQ(labels("1,2,10\n1,2,9\n1,2,-0.5\n"), (json{-0.5, 9, 10}));
+  EXPECT_EQ(labels("1,2,200000\n1,2,0.0001\n"), (json{0.0001, 200000}));
   EXPECT_EQ(labels("1,2,10\n1,2,007\n"), (json{"007", "10"}));
+  EXPECT_EQ(labels("1,2,10\n1,2,1e5\n"), (json{"10", "1e5"}));
   EXPECT_EQ(labels("1,2,10\n1,2,nan\n1,2,9\n"), (json{"9", "10", "nan"}));
   EXPECT_EQ(labels("x,y,z\n"), json::array());
   expect_refusal(hull({file("odd.csv", "1,2,\xFF\n"), "--by", "3"}), 2,
@@ -683,6 +685,10 @@ TEST_F(HullCommandTest, WhatGzipCompressedIsUnpacked) {
   EXPECT_EQ(in_shell("", "- < '" + csv + ".gz'").out, expected_text);
   const std::string packed = read_text(csv + ".gz");
   EXPECT_EQ(hull({file("twice.csv.gz", packed + packed)}).code, 0);
+  EXPECT_EQ(hull({file("padded.csv.gz", packed + std::string(100'000, '\0'))}).out, expected_text);
+  const std::string once = file("once.csv", packed);
+  ASSERT_EQ(run_program({"gzip", "-k", once}).code, 0);
+  expect_refusal(hull({once + ".gz"}), 2, "it is packed by gzip twice");
   expect_refusal(hull({file("cut.csv.gz", packed.substr(0, packed.size() / 2))}), 2,
                  "its gzip stream is cut short");
   std::string damaged = packed;

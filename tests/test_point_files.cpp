@@ -101,12 +101,16 @@ TEST_F(PointFilesTest, NamesOfColumnsMayBeNumbersOrHaveDelimitersInQuotes) {
 
 // R's write.table names one column less than there are, decimal commas make two fields of one.
 TEST_F(PointFilesTest, ARowWithMoreFieldsThanNamesIsRefusedUnlessColumnsAreNumbers) {
-  for (const std::string text : {"\"x\" \"y\"\n\"1\" 0.5 0.7\n", "x,y\n1,5,2,5\n"}) {
+  for (const std::string text : {"\"x\" \"y\"\n\"1\" 0.5 0.7\n", "x,y\n1,5,2,5\n", "V1 V2\n\"1\" 0.5 0.7\n",
+                                 "Rechts,Hoch\n1,5,2,5\n", "n,x,y\nHall 3, 5,1,9\n"}) {
     expect_says(refusal("a.csv", text), ", line 2: the line has ");
     EXPECT_NE(refusal("a.csv", text).find("as in 2,3"), std::string::npos);
   }
   EXPECT_EQ(read_columns("\"x\" \"y\"\n\"1\" 0.5 0.7\n", "2,3"), (Points{{0.5, 0.7}}));
   EXPECT_EQ(read_columns("x,y\n1,2,\n", ""), (Points{{1, 2}})) << "nothing is behind the last comma";
+  expect_says(refusal("a.csv", "x,y\n1,2\n1,5,2,5\n"), ", line 3: the line has 4 fields");
+  EXPECT_EQ(read_columns("x,y,n\n1,2,a\n3,4,\"b,c\"\n", ""), (Points{{1, 2}, {3, 4}})) << "quoted";
+  EXPECT_EQ(read_columns("x y\n1 2\n3 4 wall\n", ""), (Points{{1, 2}, {3, 4}})) << "words behind";
 }
 
 TEST_F(PointFilesTest, APtsFileBeginsWithTheNumberOfPoints) {
@@ -162,9 +166,19 @@ TEST_F(PointFilesTest, TheSystemBesideHasTheNameOfTheFile) {
   EXPECT_EQ(read_point_file(file("a.csv", "1,2\n")).crs, beside);
   EXPECT_EQ(read_point_file(file("a.csv.gz", "1,2\n")).crs, beside) << "be it compressed or not";
   EXPECT_EQ(read_point_file(file("a.npy", npy_of<double>({{1, 2}}, "<f8"))).crs, beside);
+  file("c.prj", "\xEF\xBB\xBFPROJCS[\"a\",GEOGCS[\"b\"],AUTHORITY[\"EPSG\",\"25833\"]]");
+  EXPECT_EQ(read_point_file(file("c.csv", "1,2\n")).crs, beside) << "behind a byte order mark";
   EXPECT_EQ(read_point_file(file("b.csv", "1,2\n")).crs, Crs());
   EXPECT_EQ(read_point_file(file("a.csv", "lon,lat\n1,2\n")).crs, (Crs{4326, true, true}));
   EXPECT_EQ(read_point_file(file("a.geojson", geojson_multipoint({{1, 2}}))).crs, (Crs{4326, true, true}));
+}
+
+TEST_F(PointFilesTest, ASystemOfGeoJsonThatHasNoKnownNameIsUnknown) {
+  for (const char* crs : {R"({"type":"link","properties":{"href":"a"}})",
+                          R"({"type":"EPSG","properties":{"code":25832}})", "null"}) {
+    const std::string text = std::string(R"({"type":"Point","coordinates":[1,2],"crs":)") + crs + "}";
+    EXPECT_FALSE(read_point_file(file("a.geojson", text)).crs.is_geographic) << crs;
+  }
 }
 
 TEST_F(PointFilesTest, ThePartsOfAFileHaveItsPoints) {
@@ -361,6 +375,7 @@ TEST_F(PointFilesTest, FaultsInWkt) {
       {"a.wkt", "(1 2)", "there is no geometry's name"},
       {"a.wkt", "POINT (" + std::string(1000, '1') + " 2)", "a word is too long"},
       {"a.wkt", deep, "collections nest too deeply"},
+      {"a.wkt", "SRID=25832;POINT (1 2)\nSRID=4326;POINT (3 4)", "the SRID is 4326, and it was 25832 before"},
   };
   for (const Fault& fault : faults) {
     const std::string said = refusal(fault.name, fault.text);

@@ -1,5 +1,6 @@
 // `hullbench choose FILE`: all methods on somebody's own points, side by side, for somebody's own eyes.
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <iostream>
 #include <stdexcept>
@@ -15,6 +16,8 @@
 #include "benchmarks/run/point_parts.hpp"
 #include "benchmarks/table/writers.hpp"
 #include "benchmarks/worker/stray_processes.hpp"
+#include "tool/commands/shape_choice.hpp"
+#include "tool/commands/shape_output.hpp"
 #include "tool/hull/degrees.hpp"
 #include "tool/points/point_file.hpp"
 #include "tool/program/result_output.hpp"
@@ -74,6 +77,8 @@ OwnPoints read_points(const ChooseCommand& command) {
     throw ConfigurationError(command.file + " has " + std::to_string(points.size()) +
                              (points.size() == 1 ? " point" : " points") + "; a hull needs at least 3");
   }
+  if (!own.file.note.empty()) std::cerr << "hullbench: " << own.file.note << "\n";
+  polylidar::tool::check_degrees(own.file.crs, polylidar::bounding_box(points));
   own.latitude = polylidar::tool::middle_latitude(own.file.crs, points);
   own.plane = own.latitude ? polylidar::tool::to_metres(points, *own.latitude) : points;
   const std::size_t most = command.n.value_or(command.write.empty() ? kMostPoints : points.size());
@@ -219,6 +224,8 @@ ExitCode choose_method(const ChooseCommand& command) {
   const run::MethodCatalog catalog(run::manifest_folders(command.adapters));
   const choose::Question question = make_question(command, catalog);
   const OwnPoints own = read_points(command);
+  const std::array inputs = {command.file};
+  polylidar::tool::check_is_none_of(place, inputs);
   polylidar::tool::check_output_place(place);
   const bool all_where_fast = own.is_sample() && !command.n;
   const choose::PointSource source = {.name = name,

@@ -349,8 +349,9 @@ std::string league_results(const json& league, const std::string& folder) {
   table::print_item("All of the league's tables: [" + file + "](" + file + ").", out);
   table::print_item("Parameters: " + joined(protocols, "; ") + ".", out);
   table::print_item(
-      "L2 as a part of the ground truth's area; a failure is infinitely bad. Hole F1 is of the cases whose "
-      "ground truth has holes. In brackets 95 % intervals by shape.",
+      "L2: the area where result and ground truth differ, in % of the latter; a failure is infinitely bad. "
+      "Hole F1: 1 if all holes are found and no others, of cases with holes. In brackets 95 % intervals by "
+      "shape.",
       out);
   return out.str();
 }

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
 
 #include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/words.hpp"
 #include "benchmarks/report/table_context.hpp"
 #include "benchmarks/table/writers.hpp"
 
@@ -30,7 +32,7 @@ std::optional<table::Table> methods_table(const json& report) {
   const bool times = context.measurements.has_times();
   table::Table table{"paper_methods",
                      shape_title(context, shape.front()) + (times ? ": time and error" : ": error") +
-                         " of the paper's methods and of the fastest one with the same polygons",
+                         " of the paper's methods and of the fastest other method with the same polygons",
                      {table::words("Method")}};
   for (const Case& which : shape) {
     const std::string points = std::to_string(which.n) + " points";
@@ -56,9 +58,9 @@ std::optional<table::Table> methods_table(const json& report) {
     table.add_row(std::move(cells));
   }
   table.remarks.emplace_back(
-      "Error: the symmetric difference, % of the ground truth's area (in brackets as the paper divides it, "
-      "of the result's area). (paper): with the paper's parameters, from the ground truth; SpatiaLite's by "
-      "hand.");
+      "Error: the symmetric difference, % of the ground truth's area (in brackets as in the paper, of the "
+      "result's area). (paper): with the paper's parameters, computed from the ground truth; SpatiaLite's is "
+      "a number that the paper chose.");
   if (times)
     table.remarks.emplace_back(
         "Time: from points in memory to a valid multipolygon in memory, median ± median absolute deviation.");
@@ -80,11 +82,15 @@ std::size_t place_of(const std::string& text, std::string_view mark) {
 std::string readme_results(const std::vector<json>& reports, const std::string& folder) {
   if (reports.empty()) throw ConfigurationError("there is no run in " + folder + " yet; measure it first");
   std::size_t runs = 0;
-  for (const json& report : reports) runs += report.at("runs").size();
+  std::set<std::string> dates;
+  for (const json& report : reports) {
+    runs += report.at("runs").size();
+    dates.insert(report.at("created").get<std::string>().substr(0, 10));
+  }
   std::ostringstream out;
   out << "The numbers below are those of the reference run in\n[" << folder << "](" << folder
-      << "), begun on " << reports.front().at("created").get<std::string>().substr(0, 10) << ": " << runs
-      << " runs, " << reports.size() << (reports.size() == 1 ? " experiment" : " experiments")
+      << "), begun on " << join_words({dates.begin(), dates.end()}) << ": " << runs << " runs, "
+      << reports.size() << (reports.size() == 1 ? " experiment" : " experiments")
       << ".\nAll of its tables, and how to read them, are in [" << folder << "/tables.md](" << folder
       << "/tables.md).\n";
   for (const json& report : reports) {

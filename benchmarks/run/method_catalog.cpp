@@ -65,7 +65,8 @@ std::vector<plan::PlanMethod> MethodCatalog::runs_of(const std::string& name) co
   const worker::Method& method = find(name);
   if (!method.info) {
     throw ConfigurationError("the method '" + name +
-                             "' is built in and chooses no parameters by itself; name it in a plan");
+                             "' is built in, and no manifest says how to choose its parameters; name it in a "
+                             "plan");
   }
   if (const auto& runs = runs_.at(name); !runs.empty()) return runs;
   for (const ParameterInfo& parameter : method.info->parameters) {

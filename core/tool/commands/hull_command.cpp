@@ -1,8 +1,10 @@
 // `polylidar hull FILE`: from anybody's points to polygons.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <string_view>
 #include <vector>
 
 #include "polylidar/point_locator.hpp"
@@ -200,12 +202,17 @@ class HullRun {
     }
   }
 
-  /// Whether all labels are numbers as JSON writes them: 7 and -0.5, but not 007.
+  /// Whether all labels are numbers as JSON writes them: 7, 200000 and -0.5, but not 007 or 1e5.
   static bool are_numbers(const std::vector<std::string>& labels) {
+    constexpr auto kPlain = std::chars_format::fixed;
     return std::all_of(labels.begin(), labels.end(), [](const std::string& label) {
       double value = 0;
-      const auto [end, error] = std::from_chars(label.data(), label.data() + label.size(), value);
-      return error == std::errc() && std::isfinite(value) && shortest(value) == label;
+      const char* const last = label.data() + label.size();
+      const auto [end, error] = std::from_chars(label.data(), last, value, kPlain);
+      if (error != std::errc() || end != last || !std::isfinite(value)) return false;
+      std::array<char, 512> digits{};
+      const char* const plain = std::to_chars(digits.begin(), digits.end(), value, kPlain).ptr;
+      return label == std::string_view(digits.data(), static_cast<std::size_t>(plain - digits.data()));
     });
   }
 
@@ -250,10 +257,11 @@ void add_hull_options(CLI::App& app, HullCommand& command) {
       "number from 1; of this property of GeoJSON; for a LAS file: classification, return or point_source");
   add_format_option(app, command.shape, {"auto", "geojson", "wkt", "wkb", "svg"});
   app.add_flag("--keep-outliers", command.keep_outliers,
-               "Also write the points outside the shape, as a MultiPoint (geojson, or a format of GDAL)");
+               "Also write the points outside the shape, as a MultiPoint (geojson, or a format of GDAL but "
+               "Shapefile)");
   app.add_flag(
       "--stream", command.stream,
-      "Read the files up to seven times instead of keeping all points in memory; only for LAS, text, "
+      "Read the files up to seven times instead of keeping all points in memory; only for LAS, LAZ, text, "
       "NumPy and raw doubles");
   add_memory_option(app, command.shape, "With --stream, the most memory");
   app.add_option("--shard", command.shard,

@@ -11,13 +11,14 @@
 #include <system_error>
 #include <utility>
 
+#include "tool/program/letter_case.hpp"
+
 namespace polylidar::tool::point_files {
 namespace {
 
 constexpr std::size_t kBlockBytes = std::size_t{1} << 20U;
 /// Of many files only the beginning is looked at, or what is far behind it.
 constexpr std::size_t kFirstBytes = std::size_t{1} << 16U;
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::string reason(int error) {
   return std::generic_category().message(error);
@@ -59,7 +60,7 @@ BlockReader::BlockReader(const std::string& path, const PointFileOptions& option
 void BlockReader::start() {
   // A coordinate may have any bytes.
   const bool is_raw = options_.format == PointFormat::kRaw;
-  if (is_raw && !name_.ends_with(".gz")) return;
+  if (is_raw && !lower_case(name_).ends_with(".gz")) return;
   if (is_raw && !Gunzip::is_available())
     fail("this was built without zlib and cannot unpack it; give it unpacked");
   if (ahead().starts_with("\x1F\x8B") && Gunzip::is_available()) {

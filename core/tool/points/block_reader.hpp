@@ -14,6 +14,9 @@
 
 namespace polylidar::tool::point_files {
 
+/// Of UTF-8.
+inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
 /// Reads from front to back through one block of memory and knows where it is. All functions throw
 /// PointFileError when the system refuses to read.
 class BlockReader {

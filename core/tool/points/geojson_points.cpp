@@ -127,6 +127,7 @@ class PointHandler : public nlohmann::json_sax<json> {
 
   bool start_object(std::size_t) override {
     if (skipped_ > 0 || skips_this_member()) {
+      if (skipped_ == 0 && in_member(Member::kCrs)) crs_ = Crs{.is_given = true};  // unless its name is known
       refuse_as_label();
       ++skipped_;
     } else if (objects_.empty() || objects_.back().in_list || in_member(Member::kGeometry)) {

@@ -53,7 +53,16 @@ std::size_t Gunzip::read(char* to, std::size_t size) {
         throw GunzipError("its gzip stream is cut short; copy or compress it again");
       }
     }
-    if (std::exchange(state_->is_between_members, false)) inflateReset(&stream);
+    if (state_->is_between_members) {
+      // A stream may be padded with zeros, as gzip takes it.
+      while (stream.avail_in > 0 && *stream.next_in == 0) {
+        ++stream.next_in;
+        --stream.avail_in;
+      }
+      if (stream.avail_in == 0) continue;
+      state_->is_between_members = false;
+      inflateReset(&stream);
+    }
     const int result = inflate(&stream, Z_NO_FLUSH);
     state_->is_between_members = result == Z_STREAM_END;
     if (result != Z_OK && result != Z_STREAM_END && result != Z_BUF_ERROR) {

@@ -46,8 +46,9 @@ struct Foreign {
 constexpr std::array<Foreign, 8> kForeign = {
     {{"BZh", "it is compressed; give it unpacked, as in 'bzip2 -dc FILE | polylidar hull -'"},
      {"\x1F\x8B",
-      "its gzip stream cannot be read, as this was built without zlib; unpack it, as in \'gunzip -c FILE | "
-      "polylidar hull -'"},
+      "it is packed by gzip twice, or this was built without zlib; unpack it, as in 'gunzip -c FILE | "
+      "polylidar "
+      "hull -'"},
      {"\xFD\x37zXZ", "it is compressed; give it unpacked, as in 'xz -dc FILE | polylidar hull -'"},
      {"PK\x03\x04", "it is an archive (.zip or .npz); unpack it and give the file inside"},
      {"\xFF\xFE", "it is text in UTF-16; save it as UTF-8"},
@@ -175,6 +176,7 @@ void read_projection_beside(const std::string& path, PointFile& file) {
   std::string text(kLongest, '\0');
   stream.read(text.data(), kLongest);
   text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.starts_with(point_files::kByteOrderMark)) text.erase(0, point_files::kByteOrderMark.size());
   if (const std::optional<Crs> crs = crs_of_wkt(text)) file.crs = *crs;
 }
 

@@ -18,6 +18,7 @@ class Row {
   explicit Row(const BlockReader& reader) : reader_(reader) {}
 
   void separate_by(char delimiter) { delimiter_ = delimiter; }
+  char delimiter() const { return delimiter_; }
   /// At most `limit` fields: no more are looked for.
   void split(std::string_view line, std::size_t limit);
   const std::vector<std::string_view>& fields() const { return fields_; }
@@ -249,8 +250,9 @@ bool is_utf8(const std::string& text) {
 }
 
 /// What begins with # is a comment before the first row. Behind it, it may be a name or a number of a point.
-bool is_passed_over(std::string_view line, bool is_before_rows) {
-  const std::size_t first = line.find_first_not_of(" \t");
+/// A tab that delimits is no blank: a row of tabs has no coordinates.
+bool is_passed_over(std::string_view line, bool is_before_rows, char delimiter) {
+  const std::size_t first = line.find_first_not_of(delimiter == '\t' ? " " : " \t");
   return first == std::string_view::npos || (is_before_rows && line[first] == '#');
 }
 
@@ -259,6 +261,12 @@ std::size_t used(const std::vector<std::string_view>& fields) {
   const auto last =
       std::find_if(fields.rbegin(), fields.rend(), [](std::string_view field) { return !field.empty(); });
   return static_cast<std::size_t>(fields.rend() - last);
+}
+
+/// Whether a row may have more fields than that. Delimiters in quotes count, too.
+bool may_have_more(std::string_view line, std::size_t fields, char delimiter) {
+  return delimiter == kBlank ||
+         static_cast<std::size_t>(std::count(line.begin(), line.end(), delimiter)) >= fields;
 }
 
 /// The delimiter in the line sep=; that spreadsheets write before the first row.
@@ -278,7 +286,7 @@ void read_columns(BlockReader& reader, bool only_blanks, PointFile& file) {
   std::size_t needed = 0;  // fields; 0: the first row has not come yet
   std::optional<char> announced;
   bool is_count_seen = false;  // in the first line of a PTS file, of its points
-  std::size_t names = 0;       // of a first row of names, until the row behind it is compared with them
+  std::size_t names = 0;       // in the first row, if rows are compared with them; 0: they are not
   const auto start = [&](std::string_view line) {
     if (!only_blanks) row.separate_by(announced.value_or(delimiter_of(line)));
     row.split(line, line.size() + 1);
@@ -303,7 +311,7 @@ void read_columns(BlockReader& reader, bool only_blanks, PointFile& file) {
                                : "; give every point its x and y, or choose other columns with --columns"));
   };
   for (std::string_view line; reader.next_line(line);) {
-    if (is_passed_over(line, needed == 0)) continue;
+    if (is_passed_over(line, needed == 0, row.delimiter())) continue;
     if (needed == 0) {
       if (line.find('\0') != std::string_view::npos) {
         reader.fail_here("there is a zero byte, so this is no text; name the right format with --input");
@@ -319,21 +327,22 @@ void read_columns(BlockReader& reader, bool only_blanks, PointFile& file) {
       }
       start(line);
       if (columns.with_header) {
-        names = row.fields().size();
+        names = columns.is_named || columns.is_guess ? row.fields().size() : 0;
         continue;
       }
-    } else if (names > 0) {
+    } else if (names > 0 && may_have_more(line, names, row.delimiter())) {
       row.split(line, line.size() + 1);
       const std::size_t count = used(row.fields());
-      if (columns.is_named && count > names) {
+      if (count > names) {
         reader.fail_here(
             "the line has " + std::to_string(count) + " fields, and the first row names " +
             std::to_string(names) +
             " columns, so it is not known which is which; name every column, write decimals with a "
             "point, or choose columns by their number with --columns, as in 2,3");
       }
-      names = 0;
     }
+    // Words behind a row's coordinates are passed over, but in the first row they show what its names are of.
+    if (row.delimiter() == kBlank) names = 0;
     row.split(line, needed);
     if (row.fields().size() < needed) fail_short();
     const Point point = {parse_coordinate(row.fields()[columns.x], reader),

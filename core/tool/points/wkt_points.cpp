@@ -1,4 +1,5 @@
 #include <cctype>
+#include <optional>
 
 #include "tool/points/numbers.hpp"
 #include "tool/points/readers.hpp"
@@ -83,7 +84,13 @@ class WktReader {
     std::string type = keyword();
     if (type == "SRID" && accept('=')) {
       if (const auto number = parse_count(word()); number && *number > 0 && *number < 1000000) {
-        crs_ = crs_of_epsg(static_cast<int>(*number));
+        const auto epsg = static_cast<int>(*number);
+        if (srid_ && *srid_ != epsg) {
+          reader_.fail_here("the SRID is " + std::to_string(epsg) + ", and it was " + std::to_string(*srid_) +
+                            " before; give points of one coordinate system");
+        }
+        srid_ = epsg;
+        crs_ = crs_of_epsg(epsg);
       }
       expect(';');
       type = keyword();
@@ -167,6 +174,7 @@ class WktReader {
   BlockReader& reader_;
   std::vector<Point> points_;
   Crs crs_;
+  std::optional<int> srid_;
   std::string word_;
 };
 
