@@ -6,6 +6,7 @@
 #include <ogr_srs_api.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -262,6 +263,159 @@ TEST_F(VectorFormatsTest, NothingOfTheFileBeforeIsLeft) {
   EXPECT_FALSE(fs::exists(path("out.prj"))) << "the system of the file before";
   EXPECT_EQ(layer_of(out).system, "");
   EXPECT_TRUE(fs::exists(path("out.txt")));
+}
+
+/// All files of a folder and what they hold.
+std::map<std::string, std::string> texts_in(const fs::path& folder) {
+  std::map<std::string, std::string> texts;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    texts[entry.path().filename().string()] = read_text(entry.path());
+  return texts;
+}
+
+TEST_F(VectorFormatsTest, NoPartOfWhatIsReadIsReplaced) {
+  const std::string shp = layer_file("points.shp", "ESRI Shapefile");
+  const std::string table = file("s.csv", rows(points_, ","));
+  fs::copy(path("points.prj"), path("s.prj"));
+  const std::map<std::string, std::string> before = texts_in(folder_.path());
+  for (const std::string part : {"points.shx", "points.dbf"}) {
+    expect_refusal(run({"hull", path(part), "--input", "gdal", "-o", shp}), 2,
+                   "--out " + shp + " would replace " + shp + ", which is read with " + path(part));
+  }
+  // A folder is a data set, too.
+  expect_refusal(run({"hull", folder_.path().string(), "--input", "gdal", "--layer", "points", "-o", shp}), 2,
+                 "points.shp, which is read with " + folder_.path().string());
+  for (const std::string system : {"EPSG:25832", "none"}) {
+    expect_refusal(run({"hull", table, "--crs", system, "-o", path("s.shp")}), 2,
+                   "s.shp would also replace " + path("s.prj"));
+  }
+  expect_refusal(run({"hull", table, "-o", path("s.prj"), "--format", "wkt"}), 2,
+                 "s.prj, which is read with " + table);
+  EXPECT_EQ(texts_in(folder_.path()), before);
+
+  // The .prj of a Shapefile is its own, and so the same command may run again.
+  fs::remove(path("s.prj"));
+  for (int time = 0; time < 2; ++time)
+    EXPECT_EQ(result({"hull", table, "--crs", "EPSG:25832", "-o", path("s.shp")}), "");
+  EXPECT_EQ(result({"footprint", table, "-o", path("s.shp")}), "");
+}
+
+TEST_F(VectorFormatsTest, NoFileOfOthersBesideIsReplaced) {
+  for (const std::string other : {"out.dbf", "out.shx", "out.prj", "out.cpg"}) {
+    file(other, "of others");
+    expect_refusal(run({"hull", csv(), "-o", path("out.shp")}), 2,
+                   "out.shp would also replace " + path(other) + ", which is no part of it");
+    EXPECT_EQ(read_text(path(other)), "of others");
+    EXPECT_FALSE(fs::exists(path("out.shp")));
+    fs::remove(path(other));
+  }
+  file("out.xsd", "of others");
+  expect_refusal(run({"hull", csv(), "-o", path("out.gml")}), 2, "out.gml would also replace");
+  fs::remove(path("out.xsd"));
+  // Its own files are.
+  for (const std::string ending : {"gml", "tab"}) {
+    for (int time = 0; time < 2; ++time) EXPECT_EQ(result({"hull", csv(), "-o", path("out." + ending)}), "");
+    EXPECT_EQ(layer_of(path("out." + ending)).features.size(), 1U);
+  }
+}
+
+TEST_F(VectorFormatsTest, RastersAreNotLost) {
+  {
+    GDALDatasetH data =
+        GDALCreate(GDALGetDriverByName("GPKG"), path("site.gpkg").c_str(), 16, 16, 1, GDT_Byte, nullptr);
+    ASSERT_NE(data, nullptr);
+    std::array<double, 6> place = {500000, 1, 0, 5600016, 0, -1};
+    GDALSetGeoTransform(data, place.data());
+    std::array<unsigned char, 256> values = {1, 2, 3};
+    EXPECT_EQ(GDALDatasetRasterIO(data, GF_Write, 0, 0, 16, 16, values.data(), 16, 16, GDT_Byte, 1, nullptr,
+                                  0, 0, 0),
+              CE_None);
+    GDALClose(data);
+  }
+  const std::string before = read_text(path("site.gpkg"));
+  expect_refusal(run({"hull", csv(), "-o", path("site.gpkg")}), 2,
+                 "site.gpkg has raster data, which would be lost; give another file");
+  EXPECT_EQ(read_text(path("site.gpkg")), before);
+  // A PDF is both, and may be replaced.
+  if (GDALGetDriverByName("PDF") == nullptr) return;
+  for (int time = 0; time < 2; ++time)
+    EXPECT_EQ(result({"hull", csv(), "-o", path("o.pdf"), "--format", "gdal:PDF"}), "");
+}
+
+TEST_F(VectorFormatsTest, AFormatWithoutPolygonsIsRefused) {
+  for (const auto& [driver, name] :
+       {std::pair{"CSV", "out.csv"}, std::pair{"ODS", "out.ods"}, std::pair{"XLSX", "out.xlsx"}}) {
+    if (GDALGetDriverByName(driver) == nullptr) continue;
+    expect_refusal(
+        run({"hull", csv(), "-o", path(name), "--format", std::string("gdal:") + driver}), 2,
+        std::string("GDAL's driver '") + driver + "' writes none of these polygons; name another one");
+  }
+  expect_refusal(run({"hull", csv(), "-o", path("out.dat"), "--format", "gdal:Memory"}), 2,
+                 "writes no file named out.dat");
+  // Of tiles for maps of continents a hundred metres are nothing, which is known at the end only.
+  expect_end(run({"hull", csv(), "--crs", "25832", "-o", path("out.mbtiles"), "--format", "gdal:MBTiles"}), 2,
+             "GDAL's driver 'MBTiles' writes none of these polygons");
+  EXPECT_EQ(texts_in(folder_.path()).size(), 1U) << "the points";
+}
+
+TEST_F(VectorFormatsTest, LabelsStayAsTheyAre) {
+  const auto grouped = [&](const std::string& a, const std::string& b) {
+    std::string text = "x,y,kind\n";
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      text += number(points_[i].x) + "," + number(points_[i].y) + "," + (i % 2 == 0 ? a : b) + "\n";
+    return file("grouped.csv", text);
+  };
+  const auto expect_labels = [&](const std::string& a, const std::string& b,
+                                 const std::vector<std::string>& endings) {
+    for (const std::string& ending : endings) {
+      const std::string out = path("out." + ending);
+      EXPECT_EQ(result({"hull", grouped(a, b), "--by", "kind", "-o", out}), "");
+      const ReadLayer layer = layer_of(out);
+      ASSERT_EQ(layer.features.size(), 2U) << ending;
+      std::vector<std::string> labels;
+      for (const ReadFeature& feature : layer.features) labels.push_back(feature.fields.at("label"));
+      std::sort(labels.begin(), labels.end());
+      EXPECT_EQ(labels, (std::vector<std::string>{a, b})) << ending;
+    }
+  };
+  expect_labels("\u65e5\u672c", "\u6771\u4eac", {"shp", "gpkg", "fgb"});
+  expect_labels("2020/1/5", "2020/11/25", {"shp", "gpkg", "fgb"});
+  expect_labels("08:30", "9:15:00", {"shp", "gpkg", "fgb"});
+  expect_labels("2020-01-05T08:30:00Z", "2020-01-05T8:30", {"shp", "gpkg", "fgb"});
+  expect_labels(std::string(253, 'l') + "a", std::string(253, 'l') + "b", {"shp"});
+  expect_labels(std::string(299, 'l') + "a", std::string(299, 'l') + "b", {"gpkg", "fgb"});
+  const std::map<std::string, std::string> before = texts_in(folder_.path());
+  expect_end(
+      run({"hull", grouped(std::string(299, 'l') + "a", std::string(299, 'l') + "b"), "--by", "kind", "-o",
+           path("out.shp")}),
+      2, "out.shp cannot hold the label 'llllllllllllllllllllllllllllllllllllllll...' as it is; shorten it");
+  std::map<std::string, std::string> after = texts_in(folder_.path());
+  after["grouped.csv"] = before.at("grouped.csv");
+  EXPECT_EQ(after, before);
+}
+
+TEST_F(VectorFormatsTest, WhatTheFormatLacksIsTold) {
+  const Outcome laundered = succeeded(run({"hull", csv(), "-o", path("out.shp")}));
+  const std::string name = "'median_size' to 'median_siz'";
+  expect_says(laundered.err, "polylidar: " + path("out.shp") + ": ");
+  expect_says(laundered.err, name);
+  EXPECT_EQ(laundered.err.find(name), laundered.err.rfind(name)) << "once";
+  expect_says(succeeded(run({"footprint", csv(), "-o", path("out.shp")})).err, name);
+  EXPECT_FALSE(contains(succeeded(run({"hull", csv(), "-o", path("out.gpkg")})).err, "out.gpkg"));
+
+  const std::string note = "the coordinates are transformed to WGS 84";
+  for (const std::string ending : {"kml", "geojsonl"}) {
+    const std::string out = path("out." + ending);
+    const Outcome metres = succeeded(run({"hull", csv(), "--crs", "EPSG:25832", "-o", out}));
+    expect_says(metres.err, out + ": " + note);
+    EXPECT_FALSE(contains(metres.err, "Target SRS")) << metres.err;
+    EXPECT_EQ(layer_of(out).system, "EPSG:4326");
+    const std::string degrees = file("degrees.csv", "x,y\n7.1,50.1\n7.2,50.1\n7.1,50.2\n7.2,50.2\n");
+    const Outcome same = succeeded(run({"hull", degrees, "--crs", "EPSG:4326", "-o", out}));
+    EXPECT_FALSE(contains(same.err, note)) << same.err;
+  }
+  EXPECT_FALSE(contains(succeeded(run({"hull", csv(), "--crs", "EPSG:25832", "-o", path("system.shp")})).err,
+                        "transformed"));
 }
 
 TEST_F(VectorFormatsTest, GroupsByAColumn) {

@@ -32,7 +32,7 @@ class HullRun {
       : command_(command),
         surroundings_(surroundings),
         status_(surroundings.err, surroundings.terminal, quiet_time(surroundings.terminal)),
-        output_(command.shape, surroundings.vector_formats) {}
+        output_(command.shape, surroundings) {}
 
   ExitCode run() {
     check_options();

@@ -35,7 +35,7 @@ Crs read_parts(const std::vector<std::string>& paths, std::vector<StreamShard>& 
 }
 
 ExitCode merge(const MergeCommand& command, const Surroundings& surroundings) {
-  const ShapeOutput output(command.shape, surroundings.vector_formats);
+  const ShapeOutput output(command.shape, surroundings);
   if (output.text_format() == "svg") {
     throw ConfigurationError(
         "svg shows all points, which parts do not have; write the polygons as geojson, wkt or wkb");

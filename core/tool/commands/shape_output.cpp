@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <iterator>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -16,6 +17,8 @@ namespace polylidar::tool {
 namespace {
 
 constexpr std::string_view kGdal = "gdal:";
+/// The most that is told of what a format lacks.
+constexpr std::size_t kMostNotes = 10;
 constexpr std::string_view kKnownEndings =
     "name it .geojson, .wkt, .wkb or .svg, or say with --format what it is";
 
@@ -36,11 +39,14 @@ std::string format_of(const ShapeChoice& choice) {
 
 }  // namespace
 
-ShapeOutput::ShapeOutput(const ShapeChoice& choice, const VectorFormats* formats)
-    : path_(choice.out),
-      formats_(formats),
+ShapeOutput::ShapeOutput(const ShapeChoice& choice, const Surroundings& surroundings)
+    : program_(surroundings.program),
+      path_(choice.out),
+      input_format_(point_format_of(choice.input_format).value_or(PointFormat::kAuto)),
+      formats_(surroundings.vector_formats),
       is_format_given_(choice.format != "auto"),
-      text_format_(format_of(choice)) {
+      text_format_(format_of(choice)),
+      replaced_{path_} {
   if (!text_format_.starts_with(kGdal)) {
     if (!choice.out_layer.empty()) {
       throw ConfigurationError("--out-layer is for what GDAL writes, such as .gpkg; leave it out");
@@ -54,14 +60,41 @@ ShapeOutput::ShapeOutput(const ShapeChoice& choice, const VectorFormats* formats
   if (formats_ == nullptr) throw ConfigurationError(path_ + ": " + kNoGdalToWrite);
   by_gdal_ = VectorOutput{path_, text_format_.substr(kGdal.size()), choice.out_layer};
   text_format_ = "geojson";
-  formats_->check(*by_gdal_);
+  for (std::string& file : formats_->check(*by_gdal_)) replaced_.push_back(std::move(file));
 }
 
 void ShapeOutput::check_against(std::span<const std::string> inputs) const {
   check_is_none_of(path_, inputs);
+  for (const std::string& input : inputs) check_is_no_part_of(input);
   if (!is_format_given_ && names_points(path_)) {
     throw ConfigurationError("--out " + path_ + " has the ending of a file of points; " +
                              std::string(kKnownEndings));
+  }
+}
+
+/// A Shapefile is several files, and so may be what is read.
+void ShapeOutput::check_is_no_part_of(const std::string& input) const {
+  std::error_code error;
+  std::vector<std::string> there;
+  std::copy_if(replaced_.begin(), replaced_.end(), std::back_inserter(there),
+               [&](const std::string& file) { return std::filesystem::is_regular_file(file, error); });
+  // What a pipe gives can be read once only.
+  const bool is_file =
+      std::filesystem::is_regular_file(input, error) || std::filesystem::is_directory(input, error);
+  if (there.empty() || !is_file) return;
+  std::vector<std::string> read = {input};
+  // The .prj of a Shapefile that is replaced is its own: the same command may run again.
+  if (!by_gdal_ || !std::filesystem::exists(path_, error))
+    read.push_back(projection_file_beside(input).string());
+  if (formats_ != nullptr && is_read_by_gdal(input, input_format_)) {
+    for (std::string& file : formats_->files_of(input)) read.push_back(std::move(file));
+  }
+  for (const std::string& file : there) {
+    for (const std::string& part : read) {
+      if (!std::filesystem::equivalent(file, part, error)) continue;
+      throw ConfigurationError("--out " + path_ + " would replace " + file + ", which is read with " + input +
+                               "; give another file");
+    }
   }
 }
 
@@ -96,7 +129,14 @@ void ShapeOutput::write(std::string text, const Crs& crs, StatusLine& status) co
   // Standard output may be the same terminal.
   if (!path_.empty()) status.show("writing " + path_);
   if (by_gdal_) {
-    formats_->write(*by_gdal_, std::move(text), crs);
+    const std::vector<std::string> notes = formats_->write(*by_gdal_, std::move(text), crs);
+    status.clear();
+    for (std::size_t n = 0; n < std::min(notes.size(), kMostNotes); ++n)
+      status.say(program_ + ": " + path_ + ": " + notes[n]);
+    if (notes.size() > kMostNotes) {
+      status.say(program_ + ": " + path_ + ": there are " + std::to_string(notes.size() - kMostNotes) +
+                 " more warnings of GDAL");
+    }
   } else {
     write_result(path_, text);
   }

@@ -4,11 +4,14 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "tool/commands/commands.hpp"
 #include "tool/gdal/vector_formats.hpp"
 #include "tool/points/crs.hpp"
+#include "tool/points/point_file.hpp"
 #include "tool/program/status_line.hpp"
+#include "tool/program/surroundings.hpp"
 
 namespace polylidar::tool {
 
@@ -22,10 +25,10 @@ void check_is_none_of(const std::string& out, std::span<const std::string> input
 class ShapeOutput {
  public:
   /// Throws ConfigurationError where that cannot be, std::runtime_error where no file can be written there.
-  ShapeOutput(const ShapeChoice& choice, const VectorFormats* formats);
+  ShapeOutput(const ShapeChoice& choice, const Surroundings& surroundings);
 
-  /// Throws ConfigurationError where the result would replace one of the files that are read, or look like a
-  /// file of points.
+  /// Throws ConfigurationError where the result would replace one of the files that are read, a part of one
+  /// or what says its coordinate system, or look like a file of points.
   void check_against(std::span<const std::string> inputs) const;
 
   /// What write() takes: "geojson", "wkt", "wkb" or "svg".
@@ -37,16 +40,22 @@ class ShapeOutput {
   /// Whether the result says in which coordinate system it is, or there is nothing to say.
   bool can_tell(const Crs& crs) const;
 
-  /// The whole result, or nothing of it; `status` shows that. Throws std::runtime_error and Interrupted, as
-  /// ResultOutput.
+  /// The whole result, or nothing of it; `status` shows that, and says what is lost in the format. Throws
+  /// std::runtime_error and Interrupted, as ResultOutput, and ConfigurationError where the format cannot hold
+  /// a label.
   void write(std::string text, const Crs& crs, StatusLine& status) const;
 
  private:
+  void check_is_no_part_of(const std::string& input) const;
+
+  std::string program_;
   std::string path_;
+  PointFormat input_format_;
   const VectorFormats* formats_;
   bool is_format_given_;
   std::string text_format_;
   std::optional<VectorOutput> by_gdal_;
+  std::vector<std::string> replaced_;  ///< files that the result takes the place of, be they there or not
 };
 
 }  // namespace polylidar::tool

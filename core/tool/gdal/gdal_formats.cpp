@@ -1,7 +1,6 @@
 #include "tool/gdal/gdal_formats.hpp"
 
 #include <cpl_conv.h>
-#include <cpl_error.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <gdal.h>
@@ -22,6 +21,8 @@
 #include <utility>
 #include <vector>
 
+#include "tool/gdal/gdal_data.hpp"
+#include "tool/gdal/layer_content.hpp"
 #include "tool/points/labels.hpp"
 #include "tool/points/numbers.hpp"
 #include "tool/points/readers.hpp"
@@ -37,45 +38,6 @@ namespace {
 namespace fs = std::filesystem;
 using point_files::in_quotes;
 
-/// Takes what GDAL has to say in this thread, so that it does not print it, and keeps the first error.
-class GdalErrors {
- public:
-  GdalErrors() { CPLPushErrorHandlerEx(&GdalErrors::take, this); }
-  ~GdalErrors() { CPLPopErrorHandler(); }
-  GdalErrors(const GdalErrors&) = delete;
-  GdalErrors& operator=(const GdalErrors&) = delete;
-
-  bool any() const { return !first_.empty(); }
-  /// ": what was said"; empty when nothing was.
-  std::string said() const { return any() ? ": " + first_ : ""; }
-
- private:
-  static void CPL_STDCALL take(CPLErr kind, CPLErrorNum /*number*/, const char* text) {
-    auto& errors = *static_cast<GdalErrors*>(CPLGetErrorHandlerUserData());
-    if (kind < CE_Failure || errors.any()) return;
-    errors.first_ = *text == '\0' ? "an error without a text" : text;
-    std::replace(errors.first_.begin(), errors.first_.end(), '\n', ' ');
-  }
-
-  std::string first_;
-};
-
-struct Close {
-  void operator()(GDALDatasetH dataset) const { GDALClose(dataset); }
-};
-using Dataset = std::unique_ptr<void, Close>;
-
-struct DestroyFeature {
-  void operator()(OGRFeatureH feature) const { OGR_F_Destroy(feature); }
-};
-using Feature = std::unique_ptr<void, DestroyFeature>;
-
-Dataset open(const std::string& path, const char* const* drivers = nullptr,
-             const char* const* options = nullptr) {
-  return Dataset(GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers,
-                            options, nullptr));
-}
-
 /// "a, b, c", the first of them.
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 12;
@@ -83,14 +45,6 @@ std::string listed(const std::vector<std::string>& names) {
   for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
     text += (i > 0 ? ", " : "") + in_quotes(names[i]);
   return names.size() > kMost ? text + " and others" : text;
-}
-
-std::vector<OGRLayerH> layers_of(GDALDatasetH dataset) {
-  std::vector<OGRLayerH> layers;
-  for (int i = 0; i < GDALDatasetGetLayerCount(dataset); ++i) {
-    if (OGRLayerH const layer = GDALDatasetGetLayer(dataset, i)) layers.push_back(layer);
-  }
-  return layers;
 }
 
 std::vector<std::string> names_of(const std::vector<OGRLayerH>& layers) {
@@ -346,11 +300,26 @@ class MemoryFile {
   std::string path_;
 };
 
-/// The features of `source` into a new file or table.
-void translate(GDALDatasetH source, const std::string& to, const VectorOutput& output, const Crs& crs) {
-  const std::string system = crs.epsg > 0 ? crs.name() : crs.wkt.empty() ? "NONE" : crs.wkt;
-  std::vector<std::string> words = {
-      "-f", GDALGetDriverShortName(driver_of(output)), "-nln", layer_name(output), "-a_srs", system};
+/// The features of GeoJSON, in which text stays text: GDAL would take some for dates.
+Dataset open_features(const MemoryFile& geojson) {
+  const char* const drivers[] = {"GeoJSON", nullptr};
+  const char* const options[] = {"ARRAY_AS_STRING=YES", "DATE_AS_STRING=YES", nullptr};
+  // Of outlines of any length.
+  CPLSetThreadLocalConfigOption("OGR_GEOJSON_MAX_OBJ_SIZE", "0");
+  return open(geojson.path(), drivers, options);
+}
+
+/// As GDAL takes it from text.
+std::string system_text(const Crs& crs) {
+  return crs.epsg > 0 ? crs.name() : crs.wkt.empty() ? "NONE" : crs.wkt;
+}
+
+/// The features of `source` into a new file or table. Returns what GDAL warns of.
+std::vector<std::string> translate(GDALDatasetH source, const std::string& to, const VectorOutput& output,
+                                   const Crs& crs) {
+  const std::string driver = GDALGetDriverShortName(driver_of(output));
+  std::vector<std::string> words = {"-f", driver, "-nln", layer_name(output), "-a_srs", system_text(crs)};
+  if (driver == "ESRI Shapefile") words.insert(words.end(), {"-lco", "ENCODING=UTF-8"});
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -369,6 +338,76 @@ void translate(GDALDatasetH source, const std::string& to, const VectorOutput& o
   // Much is written only now.
   written.reset();
   if (errors.any()) fail();
+  return errors.warnings();
+}
+
+/// What the driver made of `source` in the files at `path`; nothing where GDAL only writes the format. Throws
+/// ConfigurationError where no file of that name or no polygon is there.
+std::optional<LayerContent> read_back(const LayerContent& source, const std::string& path,
+                                      const VectorOutput& output) {
+  GdalErrors unreadable;
+  const std::string driver = GDALGetDriverShortName(driver_of(output));
+  const char* const drivers[] = {driver.c_str(), nullptr};
+  const auto fail = [&](const std::string& what) {
+    throw ConfigurationError("GDAL's driver " + in_quotes(driver) + what +
+                             "; name another one, as in gdal:GPKG, or ask for --format wkt");
+  };
+  VSIStatBufL status{};
+  if (VSIStatL(path.c_str(), &status) != 0)
+    fail(" writes no file named " + fs::path(path).filename().string());
+  Dataset data = open(path, drivers);
+  // A sequence of one GeoJSON is GeoJSON to GDAL.
+  if (!data) data = open(path);
+  if (!data) return {};
+  LayerContent written = content_of(data.get());
+  if (source.bounds && !written.bounds) fail(" writes none of these polygons");
+  return written;
+}
+
+/// A folder of GDAL's in memory.
+class MemoryFolder {
+ public:
+  MemoryFolder() : path_("/vsimem/polylidar-" + std::to_string(::getpid())) {
+    if (VSIMkdir(path_.c_str(), 0700) != 0) throw std::runtime_error("GDAL makes no folder in memory");
+  }
+  ~MemoryFolder() { VSIRmdirRecursive(path_.c_str()); }
+  MemoryFolder(const MemoryFolder&) = delete;
+  MemoryFolder& operator=(const MemoryFolder&) = delete;
+
+  const std::string& path() const { return path_; }
+  std::vector<fs::path> names() const {
+    std::vector<fs::path> names;
+    char** const read = VSIReadDir(path_.c_str());
+    for (char** name = read; name != nullptr && *name != nullptr; ++name) {
+      if (fs::path name_in_folder = *name; name_in_folder != "." && name_in_folder != "..")
+        names.push_back(std::move(name_in_folder));
+    }
+    CSLDestroy(read);
+    return names;
+  }
+
+ private:
+  std::string path_;
+};
+
+/// Writes a polygon into memory, so that what the driver lacks is known before the work. Returns the names of
+/// the files that it makes; nothing where it does not write into memory. Throws ConfigurationError where it
+/// writes no polygons.
+std::vector<fs::path> try_out(const VectorOutput& output) {
+  const MemoryFile feature(
+      R"({"type": "Feature", "properties": {"label": "a"}, "geometry": {"type": "Polygon", "coordinates":
+          [[[500000, 5600000], [600000, 5600000], [500000, 5700000], [500000, 5600000]]]}})");
+  const MemoryFolder folder;
+  const std::string path = folder.path() + "/" + fs::weakly_canonical(output.path).filename().string();
+  const Dataset source = open_features(feature);
+  if (!source) return {};
+  try {
+    translate(source.get(), path, output, crs_of_epsg(32632));
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+  read_back(content_of(source.get()), path, output);
+  return folder.names();
 }
 
 /// When something is to be read or written, as it takes a moment.
@@ -384,41 +423,57 @@ class GdalFormats final : public VectorFormats {
     return LayerReader(path, options).read();
   }
 
-  void check(const VectorOutput& output) const override {
+  std::vector<std::string> files_of(const std::string& path) const override {
+    register_drivers();
+    GdalErrors unreadable;
+    std::vector<std::string> files;
+    for (const fs::path& file : files_of(open(path).get())) files.push_back(file.string());
+    return files;
+  }
+
+  std::vector<std::string> check(const VectorOutput& output) const override {
+    check_place(output);
+    if (is_database(output.path)) return {};
+    const fs::path target = fs::weakly_canonical(output.path);
+    std::vector<fs::path> files = files_replaced_at(target, output);
+    const std::vector<fs::path> parts = in_folder(target.parent_path(), try_out(output));
+    if (files.empty()) check_are_free(parts, target, output);
+    files.insert(files.end(), parts.begin(), parts.end());
+    std::vector<std::string> beside;
+    for (const fs::path& file : files) {
+      if (file != target) beside.push_back(file.string());
+    }
+    return beside;
+  }
+
+  std::vector<std::string> write(const VectorOutput& output, std::string geojson,
+                                 const Crs& crs) const override {
+    check_place(output);
+    const MemoryFile features(std::move(geojson));
+    GdalErrors errors;
+    const Dataset source = open_features(features);
+    if (!source) throw std::runtime_error("cannot write " + output.path + errors.said());
+    if (is_database(output.path)) return translate(source.get(), output.path, output, crs);
+    return write_file(source.get(), output, crs);
+  }
+
+ private:
+  static std::vector<fs::path> files_of(GDALDatasetH dataset) {
+    std::vector<fs::path> files;
+    char** const names = dataset == nullptr ? nullptr : GDALGetFileList(dataset);
+    for (char** name = names; name != nullptr && *name != nullptr; ++name) files.emplace_back(*name);
+    CSLDestroy(names);
+    return files;
+  }
+
+  static void check_place(const VectorOutput& output) {
     register_drivers();
     driver_of(output);
     if (is_database(output.path)) return check_database(output);
     check_output_place(output.path);
-    if (!fs::exists(output.path)) return;
-    // Else SQLite would play what stands there into the new file.
-    if (fs::exists(output.path + "-wal"))
-      throw ConfigurationError(output.path +
-                               " is open in another program; close it there, or give another file");
-    GdalErrors errors;
-    const Dataset there = open(output.path);
-    if (!there) return;
-    for (const std::string& name : names_of(layers_of(there.get()))) {
-      if (name == layer_name(output)) continue;
-      throw ConfigurationError(output.path + " has a layer " + in_quotes(name) +
-                               ", which would be lost; give another file");
-    }
+    if (fs::exists(output.path)) check_replaced(output);
   }
 
-  void write(const VectorOutput& output, std::string geojson, const Crs& crs) const override {
-    check(output);
-    const MemoryFile features(std::move(geojson));
-    const char* const drivers[] = {"GeoJSON", nullptr};
-    const char* const options[] = {"ARRAY_AS_STRING=YES", nullptr};
-    // Of outlines of any length.
-    CPLSetThreadLocalConfigOption("OGR_GEOJSON_MAX_OBJ_SIZE", "0");
-    GdalErrors errors;
-    const Dataset source = open(features.path(), drivers, options);
-    if (!source) throw std::runtime_error("cannot write " + output.path + errors.said());
-    if (is_database(output.path)) return translate(source.get(), output.path, output, crs);
-    write_file(source.get(), output, crs);
-  }
-
- private:
   /// GDAL would append to a table that is there.
   static void check_database(const VectorOutput& output) {
     GdalErrors errors;
@@ -429,35 +484,98 @@ class GdalFormats final : public VectorFormats {
                              " already; name another one by --out-layer");
   }
 
-  /// Of the file of the same format that `target` was, those beside it that `parts` do not replace, such as a
-  /// .prj or an index: they would be taken for those of the new file.
-  static void remove_side_files(const fs::path& target, const std::vector<fs::path>& parts,
-                                const VectorOutput& output) {
-    if (!fs::exists(target)) return;
+  /// What a file holds beside the layer that is replaced would be lost.
+  static void check_replaced(const VectorOutput& output) {
+    // Else SQLite would play what stands there into the new file.
+    if (fs::exists(output.path + "-wal"))
+      throw ConfigurationError(output.path +
+                               " is open in another program; close it there, or give another file");
     GdalErrors unreadable;
-    const char* const drivers[] = {GDALGetDriverShortName(driver_of(output)), nullptr};
-    const Dataset old = open(target.string(), drivers);
-    if (!old) return;
-    char** const names = GDALGetFileList(old.get());
-    for (char** name = names; name != nullptr && *name != nullptr; ++name) {
-      const fs::path file = *name;
-      const auto is_replaced = [&](const fs::path& part) { return part.filename() == file.filename(); };
-      if (std::none_of(parts.begin(), parts.end(), is_replaced)) fs::remove(file);
+    const Dataset there = open(output.path);
+    for (const std::string& name : names_of(there ? layers_of(there.get()) : std::vector<OGRLayerH>())) {
+      if (name == layer_name(output)) continue;
+      throw ConfigurationError(output.path + " has a layer " + in_quotes(name) +
+                               ", which would be lost; give another file");
     }
-    CSLDestroy(names);
+    const Dataset rasters = open(output.path, nullptr, nullptr, GDAL_OF_RASTER);
+    // Each page of a PDF is a raster, too.
+    if (!rasters || std::string_view(GDALGetDriverShortName(GDALGetDatasetDriver(rasters.get()))) == "PDF")
+      return;
+    throw ConfigurationError(output.path + " has raster data, which would be lost; give another file");
   }
 
-  /// Into a folder beside, as some formats are several files; these are moved when they are whole.
-  static void write_file(GDALDatasetH source, const VectorOutput& output, const Crs& crs) {
+  /// Of the data set of the same format that `target` is, all files; none where it is no such data set.
+  static std::vector<fs::path> files_replaced_at(const fs::path& target, const VectorOutput& output) {
+    if (!fs::exists(target)) return {};
+    GdalErrors unreadable;
+    const char* const drivers[] = {GDALGetDriverShortName(driver_of(output)), nullptr};
+    return files_of(open(target.string(), drivers).get());
+  }
+
+  static std::vector<fs::path> in_folder(const fs::path& folder, std::vector<fs::path> names) {
+    for (fs::path& name : names) name = folder / name;
+    return names;
+  }
+
+  /// Throws ConfigurationError where one of `parts` is there, unless it is `target`. For where no data set of
+  /// the format is replaced, to which it could belong.
+  static void check_are_free(const std::vector<fs::path>& parts, const fs::path& target,
+                             const VectorOutput& output) {
+    for (const fs::path& part : parts) {
+      if (part == target || !fs::exists(fs::symlink_status(part))) continue;
+      throw ConfigurationError("--out " + output.path + " would also replace " + part.string() +
+                               ", which is no part of it; move that file, or give another name");
+    }
+  }
+
+  /// Into a folder beside, as some formats are several files; these are moved when they are whole. Returns
+  /// what is to be told.
+  static std::vector<std::string> write_file(GDALDatasetH source, const VectorOutput& output,
+                                             const Crs& crs) {
     const fs::path target = fs::weakly_canonical(output.path);
     const TemporaryFolder unfinished(unfinished_path(target).string());
-    translate(source, (unfinished.path() / target.filename()).string(), output, crs);
+    const std::string path = (unfinished.path() / target.filename()).string();
+    std::vector<std::string> notes = translate(source, path, output, crs);
     throw_if_interrupted();
-    std::vector<fs::path> parts;
-    for (const fs::directory_entry& part : fs::directory_iterator(unfinished.path()))
-      parts.push_back(part.path());
-    remove_side_files(target, parts, output);
-    for (const fs::path& part : parts) fs::rename(part, target.parent_path() / part.filename());
+    compare(content_of(source), path, output, crs, notes);
+    move(unfinished.path(), target, output);
+    return notes;
+  }
+
+  /// Throws ConfigurationError where what was written at `path` lacks what `source` has, and notes what is
+  /// changed.
+  static void compare(const LayerContent& source, const std::string& path, const VectorOutput& output,
+                      const Crs& crs, std::vector<std::string>& notes) {
+    const std::optional<LayerContent> written = read_back(source, path, output);
+    if (!written) return;
+    if (const std::optional<std::string> label = changed_label(source, *written)) {
+      throw ConfigurationError(output.path + " cannot hold the label " + in_quotes(*label) +
+                               " as it is; shorten it, or name the output .gpkg");
+    }
+    GdalErrors unknown;
+    const SpatialSystem system(OSRNewSpatialReference(nullptr));
+    if (OSRSetFromUserInput(system.get(), system_text(crs).c_str()) != OGRERR_NONE) return;
+    OSRSetAxisMappingStrategy(system.get(), OAMS_TRADITIONAL_GIS_ORDER);
+    const std::optional<std::string> other = other_system(source, system.get(), *written);
+    if (!other) return;
+    // GDAL's own words for it are less plain.
+    std::erase_if(notes, [](const std::string& note) { return note.starts_with("Target SRS "); });
+    notes.push_back("the coordinates are transformed to " + *other +
+                    ", as the format has them in no other system; name the output .gpkg to keep them");
+  }
+
+  /// The files in `folder` to where `target` is. Of the data set that was there nothing is left, such as a
+  /// .prj or an index: it would be taken for a part of the new one.
+  static void move(const fs::path& folder, const fs::path& target, const VectorOutput& output) {
+    const std::vector<fs::path> replaced = files_replaced_at(target, output);
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& part : fs::directory_iterator(folder))
+      files.push_back(target.parent_path() / part.path().filename());
+    if (replaced.empty()) check_are_free(files, target, output);
+    for (const fs::path& old : replaced) {
+      if (std::find(files.begin(), files.end(), old) == files.end()) fs::remove(old);
+    }
+    for (const fs::path& file : files) fs::rename(folder / file.filename(), file);
   }
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tool/points/crs.hpp"
 #include "tool/points/point_file.hpp"
@@ -26,16 +27,23 @@ class VectorFormats {
   /// The points of a layer, grouped by a field where `options` asks for it. As read_point_file().
   virtual PointFile read(const std::string& path, const PointFileOptions& options) const = 0;
 
-  /// Throws ConfigurationError where `output` cannot be written: no format is known for it, GDAL cannot write
-  /// that format, the file has other layers, which would be lost, or the database has such a table;
-  /// std::runtime_error where the place cannot be written to or reached.
-  virtual void check(const VectorOutput& output) const = 0;
+  /// The files of which the data set at `path` consists, as of a Shapefile; none where it cannot be read.
+  virtual std::vector<std::string> files_of(const std::string& path) const = 0;
+
+  /// The files beside `output` that it replaces or removes, as a Shapefile does. Throws ConfigurationError
+  /// where it cannot be written: no format is known for it, GDAL writes no polygons of that format, the file
+  /// has other layers or rasters, which would be lost, a file beside it is there and no part of what is
+  /// replaced, or the database has such a table; std::runtime_error where the place cannot be written to or
+  /// reached.
+  virtual std::vector<std::string> check(const VectorOutput& output) const = 0;
 
   /// Writes the features of `geojson`, a Feature or a FeatureCollection, their properties as fields, in the
   /// coordinate system `crs`. A file is written whole or not at all; in a database a table of that name must
-  /// not be there. Throws as check, std::runtime_error when it cannot be written, and
-  /// Interrupted.
-  virtual void write(const VectorOutput& output, std::string geojson, const Crs& crs) const = 0;
+  /// not be there. Returns what a person should be told, such as what the format has no place for. Throws as
+  /// check, ConfigurationError also where the format cuts or changes a label, std::runtime_error when it
+  /// cannot be written, and Interrupted.
+  virtual std::vector<std::string> write(const VectorOutput& output, std::string geojson,
+                                         const Crs& crs) const = 0;
 };
 
 /// Whether the ending or the beginning of `path` says that GDAL is to read or write it: .gpkg, .shp, PG: and

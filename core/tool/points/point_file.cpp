@@ -166,13 +166,10 @@ void check_options(PointFormat format, const BlockReader& reader) {
   }
 }
 
-/// Many files have no place for their coordinate system; Esri's programs put it beside, into a file of the
-/// same name: points.prj for points.csv and points.csv.gz.
+/// Many files have no place for their coordinate system; Esri's programs put it beside.
 void read_projection_beside(const std::string& path, PointFile& file) {
   constexpr std::streamsize kLongest = 1 << 16;
-  std::filesystem::path beside = path;
-  if (lower_case(beside.extension().string()) == ".gz") beside.replace_extension();
-  std::ifstream stream(beside.replace_extension(".prj"), std::ios::binary);
+  std::ifstream stream(projection_file_beside(path), std::ios::binary);
   std::string text(kLongest, '\0');
   stream.read(text.data(), kLongest);
   text.resize(static_cast<std::size_t>(stream.gcount()));
@@ -218,6 +215,16 @@ std::optional<PointFormat> point_format_of(const std::string& name) {
   return {};
 }
 
+bool is_read_by_gdal(const std::string& path, PointFormat format) {
+  return format == PointFormat::kGdal || (format == PointFormat::kAuto && is_for_gdal(path));
+}
+
+std::filesystem::path projection_file_beside(const std::string& path) {
+  std::filesystem::path beside = path;
+  if (lower_case(beside.extension().string()) == ".gz") beside.replace_extension();
+  return beside.replace_extension(".prj");
+}
+
 PointFile read_point_file(const std::string& path, const PointFileOptions& options) {
   if (options.format == PointFormat::kAuto && format_of_name(path) == PointFormat::kRaw) {
     // Known before the first byte is looked at: any bytes may be a coordinate.
@@ -225,7 +232,7 @@ PointFile read_point_file(const std::string& path, const PointFileOptions& optio
     raw.format = PointFormat::kRaw;
     return read_point_file(path, raw);
   }
-  if (options.format == PointFormat::kGdal || (options.format == PointFormat::kAuto && is_for_gdal(path))) {
+  if (is_read_by_gdal(path, options.format)) {
     if (options.vector_formats == nullptr) throw PointFileError(path + ": " + kNoGdalToRead);
     return options.vector_formats->read(path, options);
   }
@@ -236,9 +243,7 @@ PointFile read_point_file(const std::string& path, const PointFileOptions& optio
 bool is_read_in_parts(const std::string& path, const PointFileOptions& options) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return false;
-  if (options.format == PointFormat::kGdal || (options.format == PointFormat::kAuto && is_for_gdal(path))) {
-    return false;
-  }
+  if (is_read_by_gdal(path, options.format)) return false;
   PointFileOptions of_start = options;
   if (of_start.format == PointFormat::kAuto && format_of_name(path) == PointFormat::kRaw) {
     of_start.format = PointFormat::kRaw;

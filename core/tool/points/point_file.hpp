@@ -4,6 +4,7 @@
 #include <array>
 #include <bitset>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
@@ -129,6 +130,13 @@ std::optional<ExpectedPoints> expected_points(const std::string& path, const Poi
 /// How many points the header of a file promises whose name ends with .las or .laz, also with .gz; nothing of
 /// other files, and where that cannot be read.
 std::optional<std::uint64_t> promised_points(const std::string& path);
+
+/// Whether GDAL reads the file at `path`, as its name says or `format` asks.
+bool is_read_by_gdal(const std::string& path, PointFormat format);
+
+/// Where the coordinate system of the file at `path` may stand that has no place for it: points.prj for
+/// points.csv and points.csv.gz.
+std::filesystem::path projection_file_beside(const std::string& path);
 
 /// Whether `path` has the ending of a format that holds points only, such as .las.
 bool names_points(const std::string& path);
