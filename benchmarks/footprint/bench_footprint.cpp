@@ -224,11 +224,9 @@ class Comparison {
     double best = size;
     double least = error_of(size);
     for (const double factor : {std::exp2(-0.125), std::exp2(0.125)}) {
-      for (double height = best * factor;; height *= factor) {
-        const double error = error_of(height);
-        if (!(error < least)) break;
+      for (double error = error_of(best * factor); error < least; error = error_of(best * factor)) {
         least = error;
-        best = height;
+        best *= factor;
       }
     }
     return best;

@@ -312,7 +312,7 @@ std::string league_csv(const League& league) {
 json load_league(const fs::path& folder) {
   const fs::path file = folder / kLeagueFile;
   const std::optional<std::string> text = read_text_file(file);
-  if (!text) return json();
+  if (!text) return {};
   json league = json::parse(*text, nullptr, false);
   if (league.is_discarded()) throw ConfigurationError(file.string() + " is not JSON; get it anew");
   return league;

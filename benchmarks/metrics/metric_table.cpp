@@ -285,8 +285,8 @@ Table make_table() {
 }  // namespace
 
 std::span<const MetricInfo> metric_table() {
-  static const Table kTable = make_table();
-  return kTable;
+  static const Table table = make_table();
+  return table;
 }
 
 }  // namespace hullbench::metrics

@@ -173,11 +173,10 @@ table::Table parameters_table(const std::vector<json>& reports) {
     for (const Column& column : columns) cells.emplace_back(cell_text(column, line, parameter));
     table.add_row(std::move(cells));
   }
-  table.remarks.push_back(
+  table.remarks.emplace_back(
       "A is the area of the ground truth, n the number of points, A_hull the area of a convex hull: of the "
       "ground truth for target_percent, else of the points. S is the median of the sizes that the core "
-      "chooses "
-      "from the points. A cell without text: the method is not in that experiment.");
+      "chooses from the points. A cell without text: the method is not in that experiment.");
   return table;
 }
 

@@ -66,6 +66,7 @@ void print_share(const std::string& rule, const std::vector<RuleUse>& uses,
 
 ExitCode fit(const std::vector<std::string>& names, int seeds, std::int64_t points) {
   std::vector<plan::Plan> plans;
+  plans.reserve(names.size());
   for (const std::string& name : names) plans.push_back(plan::load_plan(name, HULLBENCH_PLAN_FOLDER));
   const std::vector<FitCase> cases = training_cases(plans, seeds, points);
   if (cases.empty()) throw ConfigurationError("no case of these plans is on the training side of the split");
