@@ -61,7 +61,7 @@ WITHOUT_TESTS = $(NATIVE_OPTION) $(shell grep -qs '^HULLBENCH_TESTS:BOOL=ON' bui
   [ -d "$$(sed -n 's/^GTest_DIR:PATH=//p' build/CMakeCache.txt)" ] || echo -DHULLBENCH_TESTS=OFF)
 WITH_TESTS = $(NATIVE_OPTION) -DHULLBENCH_TESTS=ON
 
-.PHONY: help deps deps-extra deps-real deps-legacy build tool package package-tool bench bench-quick figures figures-core figures-default report paper site report-compare fit-default fit-rules evaluate bench-core bench-footprint bench-gate bench-gate-instructions reference test test-sanitize test-sanitizers build-clang test-clang test-fresh test-slurm test-gate fuzz lint format docs js js-bench clean clean-legacy
+.PHONY: help deps deps-extra deps-real deps-legacy build tool package package-tool bench bench-quick figures figures-core figures-default report paper site report-compare fit-default fit-rules evaluate bench-core bench-footprint bench-gate bench-gate-instructions reference test test-sanitize build-clang test-clang test-fresh test-slurm test-gate fuzz lint format docs js js-bench clean clean-legacy
 
 help: ## list the targets (the default)
 	@awk 'BEGIN { FS = ":.*## " } /^[a-z-]+:.*## / { printf "  make %-23s %s\n", $$1, $$2 }' Makefile
@@ -252,6 +252,7 @@ test-sanitize: ## install, build and run the core's tests with address, undefine
 	@# GCC's sanitizers take no memory map as random as that of Ubuntu 24.04 (vm.mmap_rnd_bits=32).
 	@$(shell setarch -R true 2>/dev/null && echo setarch -R) $(MAKE) --no-print-directory test-sanitizers
 
+# Of test-sanitize; no target by itself, so that "make help" does not list it.
 test-sanitizers:
 	@$(call build,sanitize)
 	@echo "==> the core's tests with sanitizers"
