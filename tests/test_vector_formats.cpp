@@ -278,10 +278,9 @@ TEST_F(VectorFormatsTest, NoPartOfWhatIsReadIsReplaced) {
   const std::string table = file("s.csv", rows(points_, ","));
   fs::copy(path("points.prj"), path("s.prj"));
   const std::map<std::string, std::string> before = texts_in(folder_.path());
-  for (const std::string part : {"points.shx", "points.dbf"}) {
-    expect_refusal(run({"hull", path(part), "--input", "gdal", "-o", shp}), 2,
-                   "--out " + shp + " would replace " + shp + ", which is read with " + path(part));
-  }
+  const std::string refused = "--out " + shp + " would replace " + shp + ", which is read with ";
+  for (const std::string part : {"points.shx", "points.dbf"})
+    expect_refusal(run({"hull", path(part), "--input", "gdal", "-o", shp}), 2, refused + path(part));
   // A folder is a data set, too.
   expect_refusal(run({"hull", folder_.path().string(), "--input", "gdal", "--layer", "points", "-o", shp}), 2,
                  "points.shp, which is read with " + folder_.path().string());
@@ -403,11 +402,11 @@ TEST_F(VectorFormatsTest, WhatTheFormatLacksIsTold) {
   expect_says(succeeded(run({"footprint", csv(), "-o", path("out.shp")})).err, name);
   EXPECT_FALSE(contains(succeeded(run({"hull", csv(), "-o", path("out.gpkg")})).err, "out.gpkg"));
 
-  const std::string note = "the coordinates are transformed to WGS 84";
+  const std::string note = ": the coordinates are transformed to WGS 84";
   for (const std::string ending : {"kml", "geojsonl"}) {
     const std::string out = path("out." + ending);
     const Outcome metres = succeeded(run({"hull", csv(), "--crs", "EPSG:25832", "-o", out}));
-    expect_says(metres.err, out + ": " + note);
+    expect_says(metres.err, out + note);
     EXPECT_FALSE(contains(metres.err, "Target SRS")) << metres.err;
     EXPECT_EQ(layer_of(out).system, "EPSG:4326");
     const std::string degrees = file("degrees.csv", "x,y\n7.1,50.1\n7.2,50.1\n7.1,50.2\n7.2,50.2\n");

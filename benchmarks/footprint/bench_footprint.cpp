@@ -224,7 +224,9 @@ class Comparison {
     double best = size;
     double least = error_of(size);
     for (const double factor : {std::exp2(-0.125), std::exp2(0.125)}) {
-      for (double error = error_of(best * factor); error < least; error = error_of(best * factor)) {
+      while (true) {
+        const double error = error_of(best * factor);
+        if (!(error < least)) break;
         least = error;
         best *= factor;
       }

@@ -89,13 +89,14 @@ void ShapeOutput::check_is_no_part_of(const std::string& input) const {
   if (formats_ != nullptr && is_read_by_gdal(input, input_format_)) {
     for (std::string& file : formats_->files_of(input)) read.push_back(std::move(file));
   }
-  for (const std::string& file : there) {
-    for (const std::string& part : read) {
-      if (!std::filesystem::equivalent(file, part, error)) continue;
-      throw ConfigurationError("--out " + path_ + " would replace " + file + ", which is read with " + input +
-                               "; give another file");
-    }
-  }
+  const auto lost = std::find_if(there.begin(), there.end(), [&](const std::string& file) {
+    return std::any_of(read.begin(), read.end(), [&](const std::string& part) {
+      return std::filesystem::equivalent(file, part, error);
+    });
+  });
+  if (lost == there.end()) return;
+  throw ConfigurationError("--out " + path_ + " would replace " + *lost + ", which is read with " + input +
+                           "; give another file");
 }
 
 bool names_polygons(const std::string& path) {
