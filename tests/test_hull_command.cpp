@@ -684,6 +684,10 @@ TEST_F(HullCommandTest, WhatGzipCompressedIsUnpacked) {
   if (unpacked.err.find("without zlib") != std::string::npos) GTEST_SKIP() << "skipped: zlib is missing";
   EXPECT_EQ(unpacked.out, expected_text) << unpacked.err;
   EXPECT_EQ(hull({path + ".gz"}).out, expected_text);
+  const std::string raw = file("points.f64", raw_of(points_));
+  ASSERT_EQ(run_program({"gzip", raw}).code, 0);
+  fs::rename(raw + ".gz", raw + ".GZ");
+  EXPECT_EQ(hull({raw + ".GZ", "--input", "raw"}).out, expected_text);
   EXPECT_EQ(in_shell("", "- < '" + csv + ".gz'").out, expected_text);
   const std::string packed = read_text(csv + ".gz");
   EXPECT_EQ(hull({file("twice.csv.gz", packed + packed)}).code, 0);

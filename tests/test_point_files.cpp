@@ -111,6 +111,8 @@ TEST_F(PointFilesTest, ARowWithMoreFieldsThanNamesIsRefusedUnlessColumnsAreNumbe
   expect_says(refusal("a.csv", "x,y\n1,2\n1,5,2,5\n"), ", line 3: the line has 4 fields");
   EXPECT_EQ(read_columns("x,y,n\n1,2,a\n3,4,\"b,c\"\n", ""), (Points{{1, 2}, {3, 4}})) << "quoted";
   EXPECT_EQ(read_columns("x y\n1 2\n3 4 wall\n", ""), (Points{{1, 2}, {3, 4}})) << "words behind";
+  for (const std::string text : {"x,y\n1,2\n,\n", "x\ty\n1\t2\n\t\n"})
+    expect_says(refusal("a.csv", text), ", line 3: ");
 }
 
 TEST_F(PointFilesTest, APtsFileBeginsWithTheNumberOfPoints) {

@@ -47,8 +47,7 @@ constexpr std::array<Foreign, 8> kForeign = {
     {{"BZh", "it is compressed; give it unpacked, as in 'bzip2 -dc FILE | polylidar hull -'"},
      {"\x1F\x8B",
       "it is packed by gzip twice, or this was built without zlib; unpack it, as in 'gunzip -c FILE | "
-      "polylidar "
-      "hull -'"},
+      "polylidar hull -'"},
      {"\xFD\x37zXZ", "it is compressed; give it unpacked, as in 'xz -dc FILE | polylidar hull -'"},
      {"PK\x03\x04", "it is an archive (.zip or .npz); unpack it and give the file inside"},
      {"\xFF\xFE", "it is text in UTF-16; save it as UTF-8"},

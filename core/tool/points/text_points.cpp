@@ -341,7 +341,7 @@ void read_columns(BlockReader& reader, bool only_blanks, PointFile& file) {
             "point, or choose columns by their number with --columns, as in 2,3");
       }
     }
-    // Words behind a row's coordinates are passed over, but in the first row they show what its names are of.
+    // Where blanks separate, only the first row is compared: in others, words may follow the coordinates.
     if (row.delimiter() == kBlank) names = 0;
     row.split(line, needed);
     if (row.fields().size() < needed) fail_short();
