@@ -932,6 +932,23 @@ TEST(AutomaticLimit, MoreDetailBringsNoTriangleBack) {
   }
 }
 
+// The sizes that were found for one detail are used for the next one.
+TEST(AutomaticLimit, OfOneDetailAfterAnotherIsAsOfEachAlone) {
+  std::vector<std::vector<Point>> sets = {sparser_to_the_right(20000, 8, 1), testing::uniform_points(500, 2),
+                                          testing::uniform_points(20000, 3)};
+  sets.push_back(with_square(sets.back(), 10000, 4, 0.001, {0.3, 0.4}));
+  for (const std::vector<Point>& points : sets) {
+    Extractor extractor;
+    extractor.triangulate(points, 1);
+    for (const double detail : {1.0, 4.0, 0.5, 1.0}) {
+      const Options options{.detail = detail};
+      extractor.extract_regions(options);
+      EXPECT_EQ(extractor.extract_polygons(), concave_hull(points, options)) << points.size();
+      EXPECT_EQ(extractor.chosen_sizes(), chosen(points, options));
+    }
+  }
+}
+
 // A small region does not come back where more detail leaves no large one, and stays where there never was
 // one.
 TEST(AutomaticLimit, MoreDetailDropsTheSmallPartsThatLessDetailDrops) {

@@ -51,6 +51,14 @@ void expect_the_shape_of_its_triangles(const std::vector<Point>& points) {
 
 // any input
 
+TEST(SignedArea, OfLargeCoordinatesIsRightWhereItIsANumber) {
+  const double far = 0x1p515;
+  const Ring sliver = {{0, 0}, {far, far}, {far, far + 0x1p485}};
+  EXPECT_EQ(signed_area(sliver), 0x1p999);
+  EXPECT_EQ(signed_area(Ring(sliver.rbegin(), sliver.rend())), -0x1p999);
+  EXPECT_EQ(signed_area(Ring{{0, 0}, {2e200, 1e200}, {1e200, 2e200}}), kNoLimit) << "no double is that large";
+}
+
 TEST(ConcaveHull, IsTheShapeOfItsTriangles) {
   for (const PointSet& set : testing::nasty_point_sets()) {
     SCOPED_TRACE(set.name);

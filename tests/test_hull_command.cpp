@@ -768,8 +768,7 @@ TEST_F(HullCommandTest, AStreamSaysWhatItCannotDo) {
   const std::string clustered = file("clustered.npy", npy_of<double>(points, "<f8"));
   EXPECT_EQ(succeeded(hull({clustered, "--stream"})).out, hull({clustered}).out) << "put into memory";
   for (const auto& [arguments, sentence] : std::vector<std::pair<std::vector<std::string>, std::string>>{
-           {{clustered, "--memory", "1"},
-            "is chosen by a triangulation of them all, which needs more memory"},
+           {{clustered, "--memory", "1"}, "is found by a triangulation of them all, which needs more memory"},
            {{npy, "--alpha", "1", "--one"}, "--stream does not go with --one;"},
            {{npy, "--alpha", "1", "--by", "x"}, "--stream does not go with --by"},
            {{npy, "--alpha", "1", "--format", "svg"}, "--stream does not go with --format svg"},

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "polylidar/concave_hull.hpp"
@@ -120,6 +121,12 @@ TEST(WidenedHull, SaysTheLimitAndTheSizes) {
   const std::vector<Point> square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   EXPECT_THROW(widened_hull(extractor, square, {.alpha = -1}, {.cover = true}), std::invalid_argument);
   EXPECT_EQ(extractor.statistics().points, points.size());
+  // Where no limit is left, each that was given says so.
+  for (const auto& [given, left] :
+       {std::pair{Options{.max_edge_length = 1e-20, .max_perimeter = 1e-20},
+                  Options{.max_edge_length = kNoLimit, .max_perimeter = kNoLimit}},
+        {Options{.alpha = 0}, Options{.alpha = kNoLimit}}})
+    EXPECT_EQ(widened_hull(extractor, square, given, {.cover = true}).options, left);
   // What holds already is not widened, so the options stay.
   EXPECT_EQ(widened_hull(extractor, square, {.alpha = 1}, {true, true}).options, Options{.alpha = 1});
 }

@@ -130,7 +130,7 @@ void Extractor::State::choose_sizes(double detail) {
   } else {
     automatic_limit.choose_found(builder, nullptr, detail, pool);
   }
-  sizes_by.reset();  // another detail may be asked for next
+  sizes_by = automatic_limit.sizes_by();  // another detail may be asked for next, of the same points
   const int exponent = builder.scale_exponent();
   if (const auto& sizes = automatic_limit.range()) {
     chosen_sizes = {std::ldexp(sizes->least, -exponent), std::ldexp(sizes->median, -exponent),

@@ -226,7 +226,8 @@ CoordinateRange measure_coordinates(std::span<const Point> points, ThreadPool& p
   range.scale_exponent = choose_scale(magnitudes);
   if (range.scale_exponent != 0) return range;
 
-  // Below 2^-20 of the extent no predicate of lattice neighbours fits into 53 bits.
+  // Predicates fit into 53 bits where neighbours are at most some thousand units apart. A unit below 2^-20 of
+  // the extent, as most points in single precision have one, hardly ever helps, and costs a pass to be found.
   const double too_small =
       std::max(range.box.max.x - range.box.min.x, range.box.max.y - range.box.min.y) * 0x1p-20;
   range.unit = kInfinity;

@@ -23,19 +23,32 @@ Box joined(const Box& a, const Box& b) {
           {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y)}};
 }
 
-double signed_area(std::span<const Point> ring) {
-  if (ring.size() < 3) return 0;
+namespace {
+
+/// Twice the signed area of a ring of three or more vertices, times `scale` squared.
+double shoelace(std::span<const Point> ring, double scale) {
   // Relative to the first vertex: far from the origin the shoelace terms would cancel.
-  const Point origin = ring[0];
+  const Point origin{ring[0].x * scale, ring[0].y * scale};
   double twice_area = 0;
   for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
-    const double ax = ring[i].x - origin.x;
-    const double ay = ring[i].y - origin.y;
-    const double bx = ring[i + 1].x - origin.x;
-    const double by = ring[i + 1].y - origin.y;
+    const double ax = ring[i].x * scale - origin.x;
+    const double ay = ring[i].y * scale - origin.y;
+    const double bx = ring[i + 1].x * scale - origin.x;
+    const double by = ring[i + 1].y * scale - origin.y;
     twice_area += ax * by - ay * bx;
   }
-  return twice_area / 2;
+  return twice_area;
+}
+
+}  // namespace
+
+double signed_area(std::span<const Point> ring) {
+  if (ring.size() < 3) return 0;
+  const double twice_area = shoelace(ring, 1);
+  if (std::isfinite(twice_area)) return twice_area / 2;
+  // Products of large coordinates overflow, though the area itself may not.
+  constexpr int kExponent = 520;
+  return std::ldexp(shoelace(ring, std::ldexp(1.0, -kExponent)), 2 * kExponent - 1);
 }
 
 double area(const MultiPolygon& shape) {

@@ -50,6 +50,22 @@ bool is_filled(const Options& options) {
   return options.fill_single_triangles.value_or(!is_any_limit_given(options));
 }
 
+Options widened(Options options, double factor) {
+  const bool is_convex = std::isinf(factor);
+  if (!is_any_limit_given(options)) {
+    if (is_convex) {
+      options.alpha = kNoLimit;
+    } else {
+      options.detail /= factor;
+    }
+  }
+  for (const LimitField& field : kLimitFields) {
+    std::optional<double>& limit = options.*field.option;
+    if (limit) *limit = is_convex ? kNoLimit : *limit * factor;
+  }
+  return options;
+}
+
 Limits scaled(Limits limits, int exponent) {
   for (const LimitField& field : kLimitFields) {
     limits.*field.limit = std::ldexp(limits.*field.limit, exponent);

@@ -1,4 +1,4 @@
-// Checks the options that a caller gives.
+// What a caller asks for: checked, scaled, widened.
 #pragma once
 
 #include "polylidar/concave_hull.hpp"
@@ -14,6 +14,10 @@ Limits checked_limits(const Options& options);
 bool is_any_limit_given(const Options& options);
 /// Whether fill_single_triangles is asked for, or meant.
 bool is_filled(const Options& options);
+
+/// `options` with each limit that is given wider by `factor`, or with less detail if none is; those of the
+/// convex hull if the factor is infinite.
+Options widened(Options options, double factor);
 
 /// `limits` in the unit of coordinates that are 2^exponent times as large.
 Limits scaled(Limits limits, int exponent);

@@ -160,6 +160,9 @@ class Stream {
   using EndOfSlots = std::function<void(std::size_t slots)>;
 
   template <class Take>
+  void run_checked(const std::function<bool(std::size_t source)>& is_read, const Take& take,
+                   const EndOfSlots& end);
+  template <class Take>
   void run_over_cells(const Rows& rows, const Take& take, const EndOfSlots& end);
   template <class Cells, class Visit>
   void run_over_some(const Rows& rows, const Cells& some, const Visit& visit, const EndOfSlots& end);
@@ -257,6 +260,17 @@ void Stream::find_extents(bool is_for_others, const TakeBlock& also) {
                     stream_options_.expected->box == all.box();
 }
 
+/// A later pass: take(slot, block) with points that lie where the first pass found them.
+template <class Take>
+void Stream::run_checked(const std::function<bool(std::size_t source)>& is_read, const Take& take,
+                         const EndOfSlots& end) {
+  const auto check_and_take = [&](std::size_t slot, const detail::SourceBlock& block) {
+    if (!detail::are_within(block.points, extents_[block.source].box())) throw has_changed();
+    take(slot, block);
+  };
+  passes_.run({is_read, check_and_take, end});
+}
+
 /// A pass: take(slot, block) with points that have their cells, as a CellBlock. Sources without points in
 /// these rows, which are among seen_, are not read. In a first pass numbers are not known, and `end` is not
 /// called.
@@ -281,11 +295,7 @@ void Stream::run_over_cells(const Rows& rows, const Take& take, const EndOfSlots
                            });
   };
   if (is_first_pass_) return find_extents(false, take_block);
-  const auto check_and_take = [&](std::size_t slot, const detail::SourceBlock& block) {
-    if (!detail::are_within(block.points, extents_[block.source].box())) throw has_changed();
-    take_block(slot, block);
-  };
-  passes_.run({is_read, check_and_take, end});
+  run_checked(is_read, take_block, end);
 }
 
 /// The same: visit(slot, point, cell, number) for the points in these rows that lie in cells of `some`, which
@@ -553,6 +563,7 @@ void Stream::take_all() {
 }
 
 StreamedHull Stream::hull_in_memory() {
+  occupied_.reset();  // its memory is needed
   take_all();
   return detail::hull_in_memory(part_, part_.options.threads);
 }
@@ -604,11 +615,7 @@ detail::SizesBy Stream::look_for_sizes() {
       if (!is_as_expected_) throw NotAsExpected();
       return check_scale();
     }
-    const auto check_and_take = [&](std::size_t slot, const detail::SourceBlock& block) {
-      if (!detail::are_within(block.points, extents_[block.source].box())) throw has_changed();
-      take_block(slot, block);
-    };
-    passes_.run({all_sources, check_and_take, [](std::size_t) {}});
+    run_checked(all_sources, take_block, [](std::size_t) {});
   };
   constexpr int kPassesForSizes = 2;  // or three
   passes_.expect_passes(passes_.passes() + kPassesForSizes + kPassesAfterSizes);
@@ -690,9 +697,10 @@ StreamedHull Stream::find_hull() {
   if (part_.source_points <= stream_options_.most_points_in_memory && part_.source_points <= kMaxPoints) {
     return hull_in_memory();
   }
+  const char* const what = *sizes_by_ == detail::SizesBy::kBlocks ? "limit" : "shape";
   throw NeedsAllPoints(
-      "the limit for these " + std::to_string(part_.source_points) +
-      " points is chosen by a triangulation of them all, which needs more memory: give alpha, "
+      std::string("the ") + what + " of these " + std::to_string(part_.source_points) +
+      " points is found by a triangulation of them all, which needs more memory: give alpha, "
       "max_edge_length or max_perimeter");
 }
 

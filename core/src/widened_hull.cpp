@@ -19,21 +19,6 @@ namespace polylidar {
 
 namespace {
 
-/// `options` with limits wider by `factor`; those of the convex hull if it is infinite.
-Options widened(Options options, double factor) {
-  const bool is_chosen = !detail::is_any_limit_given(options);
-  if (std::isinf(factor)) {
-    options.alpha = kNoLimit;
-    options.max_edge_length = options.max_perimeter = std::nullopt;
-    return options;
-  }
-  if (is_chosen) options.detail /= factor;
-  for (std::optional<double>* limit : {&options.alpha, &options.max_edge_length, &options.max_perimeter}) {
-    if (*limit) **limit *= factor;
-  }
-  return options;
-}
-
 /// A factor from `least` on for which `holds`, to a thousandth: the least one if it stays true once it is.
 template <class Holds>
 double least_factor(double least, const Holds& holds) {
@@ -41,7 +26,7 @@ double least_factor(double least, const Holds& holds) {
   double low = least;
   double high = 2 * least;
   while (!holds(high)) {
-    if (high > 0x1p60) return kNoLimit;
+    if (high >= 0x1p60) return kNoLimit;
     low = high;
     high *= 2;
   }
@@ -124,11 +109,14 @@ class Widening {
     points_ = for_predicates(points, scaled_);
   }
 
-  /// Valid until the next one.
+  /// Valid until that of another factor is asked for.
   const IndexedMultiPolygon& shape(double factor) {
+    if (shape_ && factor == factor_) return *shape_;
     if (on_step_) on_step_();
-    extractor_.extract_regions(widened(options_, factor));
-    return extractor_.extract_polygons();
+    extractor_.extract_regions(detail::widened(options_, factor));
+    factor_ = factor;
+    shape_ = &extractor_.extract_polygons();
+    return *shape_;
   }
 
   /// The least factor with every point covered.
@@ -194,6 +182,8 @@ class Widening {
   std::span<const Point> points_;  ///< as the predicates can handle them
   Options options_;
   const std::function<void()>& on_step_;
+  double factor_ = 0;                           ///< of shape_
+  const IndexedMultiPolygon* shape_ = nullptr;  ///< the extractor's; none yet
 };
 
 }  // namespace
@@ -209,7 +199,7 @@ WidenedHull widened_hull(Extractor& extractor, std::span<const Point> points, co
   const IndexedMultiPolygon& shape = widening.shape(factor);
   std::optional<std::size_t> with_all;
   if (wanted.one && shape.polygon_count() > 1) with_all = widening.polygon_with_all(parts, shape);
-  return {with_all ? only(shape, *with_all) : shape, widened(options, factor)};
+  return {with_all ? only(shape, *with_all) : shape, detail::widened(options, factor)};
 }
 
 }  // namespace polylidar

@@ -88,6 +88,8 @@ test("a hull is a GeoJSON geometry", () => {
     [...hull.vertices.subarray(0, hull.ringEnds[0])].map((i) => ring[i]),
   );
   assert.equal(hull.area, 19 * 19 - 11 * 11 + 4 * 0.5); // the hole's corners are cut
+  const far = 2 ** 515; // the products of its coordinates are no doubles
+  assert.equal(concaveHull(pairs([0, 0, far, far, far, far + 2 ** 485])).area, 2 ** 999);
 });
 
 test("points may be of any numeric type", () => {

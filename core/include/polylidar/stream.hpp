@@ -39,8 +39,8 @@ struct StreamOptions {
   double most_map_bytes = 0x1p30;
   /// Called after each block, by one thread at a time; may throw, which ends the work.
   std::function<void(const StreamProgress&)> progress = {};
-  /// Where no limit is given and one is chosen by the triangulation of all points, up to so many are put into
-  /// memory for that, with some 150 bytes each; for more, NeedsAllPoints is thrown.
+  /// Where no limit is given and the shape is found by the triangulation of all points, up to so many are put
+  /// into memory for that, with some 150 bytes each; for more, NeedsAllPoints is thrown.
   std::uint64_t most_points_in_memory = 0;
   /// Whether different sources may be read at the same time, each by one of Options::threads threads. It is
   /// fastest with as many sources as threads, such as parts of a file. Not for shards.
@@ -65,7 +65,8 @@ struct StreamedHull {
   bool by_outlines = false;  ///< Statistics::by_outlines
 };
 
-/// Thrown where no limit is given and one cannot be chosen without more points in memory than are allowed.
+/// Thrown where no limit is given and the shape cannot be found without more points in memory than are
+/// allowed.
 class NeedsAllPoints : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
@@ -85,12 +86,13 @@ class NeedsAllPoints : public std::invalid_argument {
 /// to 65,536 points are put into memory. At most 2^28 points may be near the outline.
 ///
 /// Throws NeedsAllPoints where no limit is given, and the density varies so much, or the points are so
-/// clustered or so few, that the limit is chosen by the triangulation of all of them, and these are more than
+/// clustered or so few, that the limit is chosen by the triangulation of all of them, or `detail` is so large
+/// that the shape depends on triangles far from its outline, and the points are more than
 /// StreamOptions::most_points_in_memory. Throws std::invalid_argument as concave_hull; where coordinates
 /// would have to be scaled (see Extractor); where the limit is too small for the distances between the
 /// points, so that the maps would be too large or too much is near the outline; or where the rounding of a
-/// triangle's size decides whether it is kept (a slightly different limit helps). std::runtime_error where a
-/// source gives other points than the time before; and what a source throws.
+/// triangle's size decides whether it is kept (a slightly different limit helps). std::runtime_error where
+/// it is noticed that a source gives other points than the time before; and what a source throws.
 StreamedHull concave_hull_of_stream(std::span<const PointSource> sources, const Options& options,
                                     const StreamOptions& stream_options = {});
 /// The same of one source.

@@ -83,12 +83,18 @@ class Hull {
   #ring_area(ring) {
     const begin = ring === 0 ? 0 : this.ringEnds[ring - 1];
     const [x, y] = [(i) => this.#xy[2 * this.vertices[i]], (i) => this.#xy[2 * this.vertices[i] + 1]];
-    const [x0, y0] = [x(begin), y(begin)];
-    let sum = 0;
-    for (let i = begin + 1; i + 1 < this.ringEnds[ring]; i++) {
-      sum += (x(i) - x0) * (y(i + 1) - y0) - (y(i) - y0) * (x(i + 1) - x0);
-    }
-    return Math.abs(sum / 2);
+    const twice_area = (scale) => {
+      const [x0, y0] = [x(begin) * scale, y(begin) * scale];
+      let sum = 0;
+      for (let i = begin + 1; i + 1 < this.ringEnds[ring]; i++) {
+        const [ax, ay] = [x(i) * scale - x0, y(i) * scale - y0];
+        sum += ax * (y(i + 1) * scale - y0) - ay * (x(i + 1) * scale - x0);
+      }
+      return Math.abs(sum);
+    };
+    const sum = twice_area(1);
+    // Products of large coordinates overflow, though the area itself may not.
+    return Number.isFinite(sum) ? sum / 2 : twice_area(2 ** -520) * 2 ** 519 * 2 ** 520;
   }
 
   toJSON() {
