@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -105,6 +106,9 @@ void write_result(const json& request, const hullbench::MultiPolygon& shape) {
   hullbench::worker::write_bytes(request["result"].get<std::string>(), hullbench::to_wkb(shape));
 }
 
+/// How often points were loaded.
+int loads = 0;
+
 /// Ways that end the worker or its conversation before it could answer.
 bool misbehave_instead(const std::string& mode, const json& request) {
   if (mode == "crash") (void)std::raise(SIGSEGV);
@@ -142,6 +146,14 @@ bool misbehave_instead(const std::string& mode, const json& request) {
     std::cout << std::string(3 * hullbench::worker::kMaxLineBytes, 'x') << std::endl;
   } else if (mode == "says_memory") {
     say_error("memory", "no room");
+  } else if (mode == "says_not_installed") {
+    say_error("not_installed", "the server went down");
+  } else if (mode == "fills_disk") {
+    std::ofstream file(request["result"].get<std::string>() + ".too", std::ios::binary);
+    while (file) file << std::string(1 << 16, 'x') << std::flush;
+    say_error("error", "cannot write");
+  } else if (mode == "loses_points" && loads < 2) {
+    say_error("error", "the points are gone");
   } else if (mode == "says_unsupported") {
     say_error("unsupported", "not this many points");
   } else if (mode == "says_limits") {
@@ -227,6 +239,7 @@ int main(int argc, char** argv) {
       say(hello(mode));
     } else if (request["request"] == "load") {
       if (mode == "crash_on_load") (void)std::raise(SIGBUS);
+      ++loads;
       say({{"phases_ns", {{"load", 5}}}});
     } else if (!misbehave_instead(mode, request)) {
       answer_run(mode, request);

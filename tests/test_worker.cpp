@@ -1,5 +1,7 @@
 // Workers that do everything a method may do to the harness, and the statuses that come of it.
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -160,6 +162,7 @@ constexpr Failure kFailures[] = {
     {"MemoryAsTheWorkerSays", "says_memory", kMemory, "no room"},
     {"Unsupported", "says_unsupported", kUnsupported, "this many points"},
     {"Error", "says_error", kError, "no luck"},
+    {"NotInstalledAfterItsStart", "says_not_installed", kError, "the server went down"},
     {"EarlyExit", "early_exit", kCrash, "exit code 7 without an answer; it said: I have seen enough"},
     {"ClosedOutput", "close_output", kError, "closed its output"},
     {"GarbageOnTheProtocol", "garbage", kError, "answered 'lorem ipsum'"},
@@ -199,6 +202,23 @@ TEST_F(MethodSessionTest, AnAnswerThatNobodyAskedForIsNotTakenForTheNextOne) {
   const worker::Attempt second = run();
   EXPECT_EQ(second.status, record::Status::kError);
   expect_says(second.detail, "spoke without being asked");
+}
+
+TEST_F(MethodSessionTest, PointsAreLoadedAgainAfterAnError) {
+  EXPECT_EQ(attempt("loses_points").detail, "the points are gone");
+  EXPECT_EQ(to_string(run().status), "ok");
+}
+
+TEST_F(MethodSessionTest, AFullDiskIsNoFailureOfTheMethod) {
+  const fs::path disk = folder_.path() / "disk";
+  fs::create_directory(disk);
+  if (::unshare(CLONE_NEWNS) != 0 || ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+      ::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=4m") != 0)
+    GTEST_SKIP() << "skipped: a small disk can be made by root alone";
+  start(method_of("fills_disk", misbehaving("fills_disk")));
+  expect_complaint<std::runtime_error>([&] { session_->run(square(), {{"size", 1}}, disk, 30s); }, "is full");
+  session_.reset();
+  ::umount(disk.c_str());
 }
 
 TEST_F(MethodSessionTest, AWorkerThatDiedIsStartedAgain) {

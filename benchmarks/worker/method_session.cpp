@@ -33,6 +33,22 @@ Reply failed_start(record::Status status, std::string detail, std::string remedy
   return reply;
 }
 
+/// Of a request to a method that has started: what it lacks by then, such as a server that went down, is an
+/// error of this run, not a method that is not installed.
+Reply after_start(Reply reply) {
+  if (reply.status == record::Status::kNotInstalled) reply.status = record::Status::kError;
+  return reply;
+}
+
+/// A disk that is full is nobody's failure: the run ends, and can go on once there is room.
+void check_room(const fs::path& scratch) {
+  constexpr std::uintmax_t kLeast = std::uintmax_t{1} << 20;
+  std::error_code unknown;
+  const fs::space_info space = fs::space(scratch, unknown);
+  if (!unknown && space.available < kLeast)
+    throw std::runtime_error("the disk of " + scratch.string() + " is full; make room and start again");
+}
+
 /// The phases in a reply; throws std::invalid_argument when they are not what the protocol says.
 record::PhaseTimes read_phases(const json& body, std::initializer_list<const char*> required) {
   const auto found = body.find("phases_ns");
@@ -154,8 +170,8 @@ void MethodSession::finish_start() {
 
 Reply MethodSession::load(const LoadedPoints& points, std::chrono::milliseconds timeout) {
   loaded_key_.clear();
-  Reply reply =
-      worker_->request({{"request", "load"}, {"points", points.file.string()}, {"n", points.n}}, timeout);
+  Reply reply = after_start(
+      worker_->request({{"request", "load"}, {"points", points.file.string()}, {"n", points.n}}, timeout));
   if (reply.status != record::Status::kOk) return reply;
   try {
     load_phases_ = read_phases(reply.body, {"load"});
@@ -187,14 +203,19 @@ Attempt MethodSession::run(const LoadedPoints& points, const Parameters& paramet
   const bool watches_memory =
       watch == Watch::kMemory && !info_->capabilities.in_server && worker_->reset_peak_memory();
   ++runs_of_process_;
-  const Reply reply = worker_->request({{"request", "run"},
-                                        {"nonce", nonce},
-                                        {"parameters", record::parameters_to_json(parameters)},
-                                        {"result", result.string()}},
-                                       timeout);
+  const Reply reply = after_start(worker_->request({{"request", "run"},
+                                                    {"nonce", nonce},
+                                                    {"parameters", record::parameters_to_json(parameters)},
+                                                    {"result", result.string()}},
+                                                   timeout));
   Attempt attempt = reply.status == record::Status::kOk ? read_result(reply, nonce, result)
                                                         : failed(reply.status, reply.detail, reply.elapsed);
   if (watches_memory) attempt.peak_memory_bytes = worker_->peak_memory_bytes();
+  // Whatever failed may have lost the points too, such as the connection to a server.
+  if (attempt.status != record::Status::kOk) {
+    loaded_key_.clear();
+    check_room(scratch);
+  }
   // After a lack of memory, or an answer that is none, nobody knows what is left undone in the worker.
   if (attempt.status == record::Status::kMemory || attempt.status == record::Status::kInvalidOutput)
     worker_.reset();

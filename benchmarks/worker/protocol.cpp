@@ -107,6 +107,7 @@ std::vector<std::uint8_t> read_bytes(const fs::path& path, std::size_t max_bytes
                              std::to_string(max_bytes) + " that are allowed");
   }
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
+  errno = 0;
   std::ifstream in(path, std::ios::binary);
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (!in) throw_cannot("read", path, errno);
