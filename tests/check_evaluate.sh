@@ -7,7 +7,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cat >"$scratch/hullbench" <<'PROGRAM'
 #!/bin/bash
-echo "$*" >>"$CALLS"
+echo "$* on cores $(taskset -cp $$ | sed 's/.*: //')" >>"$CALLS"
 case $1 in
   tune) exit "${TUNE_CODE:-0}" ;;
   run) echo "part is measured" >&2; exit "${RUN_CODE:-0}" ;;
@@ -33,12 +33,16 @@ project=$1
 
 # A method's failure (4) is part of what is evaluated.
 TUNE_CODE=4 RUN_CODE=4 METHODS='a|b' evaluate 0
-grep -qx "tune world_shapes world_samplers world_crossed --methods a|b --timeout 5 --out .*/tune" "$CALLS" || fail "tune"
+grep -qx "tune world_shapes world_samplers world_crossed --methods a|b --timeout 5 --out .*/tune on cores .*" "$CALLS" || fail "tune"
 [ "$(grep -c "^run .*/world_crossed-tuned.json stress_degenerate --filter ^(a|b)/ .*--shard" "$CALLS")" -eq "$(nproc)" ] ||
   fail "run, a part a core"
+# Each on a core of its own.
+[ "$(sed -n 's/^run .* on cores \([0-9]*\)$/\1/p' "$CALLS" | sort -u | wc -l)" -eq "$(nproc)" ] || fail "run, its core"
 [ "$(tail -n 2 "$CALLS" | cut -d ' ' -f 1 | tr '\n' ' ')" = "merge league " ] || fail "merge and league come last"
 grep -q "part is measured" "$scratch/out" || fail "nobody is told how far it is"
 
+# A part without a case (6) is none.
+RUN_CODE=6 evaluate 0
 TUNE_CODE=130 evaluate 130
 if grep -q "^run" "$CALLS"; then fail "it went on after an interruption"; fi
 RUN_CODE=1 evaluate 1

@@ -18,7 +18,13 @@ read -r -a plans <<<"${PLANS:-world_shapes world_samplers world_crossed}"
 methods=${METHODS:-'(?![a-z_]*_steps(/|$))[a-z0-9_]*'}
 # Seconds for one evaluation of the search. What was chosen is measured with the limits of the plans.
 timeout=5
-parts=$(nproc)
+
+# The cores that this process may use: each part has one of its own, for its workers too.
+cores=()
+for range in $(taskset -cp $$ | sed 's/.*: //; s/,/ /g'); do
+  for ((core = ${range%-*}; core <= ${range#*-}; ++core)); do cores+=("$core"); done
+done
+parts=${#cores[@]}
 
 # run COMMAND...: a method's failures (4) are part of what is evaluated.
 run() {
@@ -36,10 +42,13 @@ for plan in "${plans[@]}"; do chosen+=("$out/tune/$plan-tuned.json"); done
 # Nothing is to be chosen for degenerate input: its plan is measured as it is.
 chosen+=(stress_degenerate)
 echo "==> measuring what was chosen, in $parts parts; the first one says how far it is"
-# measure PART: into a folder of its own; its progress is seen of the first part only.
+# measure PART: into a folder of its own; its progress is seen of the first part only. A part without a case (6) is none.
 measure() {
-  run "$hullbench" run "${chosen[@]}" --filter "^($methods)/" --repetitions 1 --shard "$1/$parts" --out "$out/part-$1" \
-    2>&1 >"$out/part-$1.txt" | if [ "$1" -eq 1 ]; then tee "$out/part-1.log" >&2; else cat >"$out/part-$1.log"; fi
+  local code=0
+  run taskset -c "${cores[$1 - 1]}" "$hullbench" run "${chosen[@]}" --filter "^($methods)/" --repetitions 1 \
+    --shard "$1/$parts" --out "$out/part-$1" 2>&1 >"$out/part-$1.txt" |
+    if [ "$1" -eq 1 ]; then tee "$out/part-1.log" >&2; else cat >"$out/part-$1.log"; fi || code=$?
+  [ "$code" -eq 6 ] || return "$code"
 }
 pids=()
 stop() {
