@@ -121,7 +121,7 @@ define drawn
 { [ -d $(1) ] || { echo "error: there is no folder $(1): name that of a run, as in RUN=results/reference." >&2; exit 2; }; } && \
 rm -rf $(2) && mkdir -p $(call drawn_into,$(1)) && build/hullbench report $(1) --out $(2) >/dev/null && \
 { build/hullbench league $(1) --all-cases --csv $(2)/cases.csv >/dev/null || true; } && \
-for extra in tables core.json league.json league.csv tune.json tune.json.xz; do [ ! -e $(1)/$$extra ] || cp -r $(1)/$$extra $(2); done && \
+for extra in suite.json tables core.json league.json league.csv tune.json tune.json.xz; do [ ! -e $(1)/$$extra ] || cp -r $(1)/$$extra $(2); done && \
 { [ ! -e $(1)/report.html.gz ] || zcat $(1)/report.html.gz >$(2)/report.html; } && \
 { [ ! -e $(1)/league/suite.json ] || build/hullbench league $(1)/league --csv $(2)/league.csv >/dev/null; }
 endef

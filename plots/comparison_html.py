@@ -187,7 +187,7 @@ def _status_sentence(pair: Pair) -> str:
     why = f" ({row.detail.rstrip('.')})" if row.detail else ""
     if row.ok:  # its result is not believed, for a reason that the table of the run gives
         return f"{pair.change}: no result that is believed in {'B' if pair.change == 'now fails' else 'A'}."
-    verb = "now" if pair.change == "now fails" else "now works; before it"
+    verb = "now" if pair.change == "now fails" else "now works; before:"
     return f"{verb} {STATUS_WORDS.get(row.status, row.status)}{why}."
 
 
@@ -331,7 +331,8 @@ def _parameters(experiments: Sequence[Experiment]) -> dict[str, str]:
 def _plans(experiments: Sequence[Experiment]) -> dict[str, str]:
     made = {"Experiments": _joined([one.title for one in experiments])}
     for name, key in (("Repetitions", "repetitions"), ("Seed", "seed"), ("Filter", "filter")):
-        made[name] = _joined([str(one.report.get(key) or "none") for one in experiments])
+        values = [one.report.get(key) for one in experiments]
+        made[name] = _joined(["none" if value in (None, "") else str(value) for value in values])
     for name, key in (("Warm-up", "warmup"), ("Time limit, s", "timeout_s"), ("Memory limit, MiB", "mem_limit_mib")):
         made[name] = _joined([str(one.plan.get(key, "none")) for one in experiments])
     series = {one for experiment in experiments for one in experiment.series()}

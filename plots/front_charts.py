@@ -137,13 +137,9 @@ def _time_error_chart(times, errors, shown: Sequence[Series], front: Sequence[in
     found = svg.beside([places[i] for i in order], widths, places, line, box)
     for i, name, at in zip(order, names, found):
         one = shown[i]
-        filled = "" if one.protocol == "paper" else ";fill:var(--panel)"
+        fill = color_of(one) if one.protocol == "paper" else "var(--panel)"
         title = f"{name}: {number(x[i])} µs a point, {number(y[i])} %"
-        body.append(
-            chart.mark(
-                x[i], y[i], 5 if one in on_front else 3.5, "mark", f"stroke:{color_of(one)};fill:{color_of(one)}{filled}", title
-            )
-        )
+        body.append(chart.mark(x[i], y[i], 5 if one in on_front else 3.5, f"stroke:{color_of(one)};fill:{fill}", title))
         if at:
             css_name = "name" if one in on_front else "name quiet"
             body.append(f"<text class='{css_name}' x='{at[0]:.1f}' y='{at[1]:.1f}' text-anchor='{at[2]}'>{text(name)}</text>")

@@ -52,7 +52,7 @@ def make_page(experiments: Sequence[Experiment], folder: Path) -> str:
     parts = {**code(STYLES, "main.js"), "colours": colours(report["methods"])}
     if kept is not None and any(experiment.is_thinned for experiment in experiments):
         kept_page = kept.read_text(encoding="utf-8")  # has what the records no longer have
-        report["metrics"] = kept_data(kept_page, "report")["metrics"]
+        report |= {name: kept_data(kept_page, "report")[name] for name in ("experiments", "metrics")}
         results = [data(name, kept_data(kept_page, name)) for name in ("charts", "rows")]
     else:
         results = [data("charts", pack(charts(experiments))), data("rows", pack(columns(experiments)))]

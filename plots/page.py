@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from records import Experiment, RecordError
-from report_common import in_order, label, method_look, method_title, text
+from report_common import in_order, label, method_look, text
 
 PLOTS = Path(__file__).resolve().parent
 PAGE = PLOTS / "report"
@@ -24,7 +24,7 @@ BUNDLER = "esbuild"
 
 @dataclass(frozen=True)
 class Section:
-    """Of a page, whose first one has the id "summary"."""
+    """Of a page."""
 
     identity: str
     link: str  # its name in the page's list of sections
@@ -98,17 +98,10 @@ def code(styles: Sequence[str], script: str, charts: bool = True) -> dict[str, s
 
 
 def method_styles(experiments: Sequence[Experiment]) -> dict[str, Any]:
-    """Of every method in the run: title, order, colours and marker."""
-    names = sorted(
-        {row.method for experiment in experiments for row in experiment.rows}
-        | {name for experiment in experiments for name in experiment.methods}
-    )
-    styles = {}
-    for name in names:
-        style = method_look(name)
-        look = {"order": style["order"], "marker": style["marker"], **style["color"]}
-        styles[name] = {"title": method_title(experiments, name), **look}
-    return styles
+    """Of every method in the run: colours and marker."""
+    names = {row.method for experiment in experiments for row in experiment.rows}
+    looks = {name: method_look(name) for name in sorted(names.union(*(one.methods for one in experiments)))}
+    return {name: {"marker": look["marker"], **look["color"]} for name, look in looks.items()}
 
 
 def entrants(experiments: Sequence[Experiment]) -> list[dict[str, str]]:

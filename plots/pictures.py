@@ -89,8 +89,8 @@ def pack(experiments: Iterable[Experiment], budget_bytes: int = BUDGET_BYTES) ->
     """The pictures of all experiments as an object for JSON, at most `budget_bytes` long when written as such with
     separators (",", ":"). Without any picture "cases" is empty. Raises RecordError when a file of pictures is malformed.
 
-    "grid", "run_columns", "not_tried" (statuses), "points_limit", "rule" (a sentence), "cases" (each with "case",
-    "experiments", "dataset", "title", "n", "holes", "runs", "block"; worst first), "results_left_out" (a number) and, by
+    "run_columns", "not_tried" (statuses), "points_limit", "rule" (a sentence), "cases" (each with "case",
+    "experiments", "title", "n", "holes", "runs", "block"; worst first), "results_left_out" (a number) and, by
     experiment, "without_picture" (cases that were measured but have none) and "dropped" (those among them that did not
     fit)."""
     experiments = list(experiments)
@@ -176,7 +176,6 @@ def _document(
     measured = {(experiment.name, row.case) for experiment in experiments for row in experiment.rows}
     packable = {(name, case.name) for case in cases for name in case.experiments}
     return {
-        "grid": GRID,
         "run_columns": RUN,
         "not_tried": sorted(NOT_TRIED),
         "points_limit": limit,
@@ -229,7 +228,6 @@ class _Drawing:
         return {
             "case": case.name,
             "experiments": case.experiments,
-            "dataset": rows[0].dataset,
             "title": case.title,
             "n": rows[0].n,
             "holes": rows[0].holes,
@@ -251,17 +249,8 @@ class _Drawing:
 
 def _shortened(metrics: dict[str, Any]) -> dict[str, Any]:
     """Numbers to six significant digits: more than is shown, and a third of the bytes."""
-
-    def short(value: Any) -> Any:
-        if isinstance(value, float):
-            return float(f"{value:.6g}")
-        if isinstance(value, list):
-            return [short(one) for one in value]
-        if isinstance(value, dict):
-            return {name: short(one) for name, one in value.items()}
-        return value
-
-    return {name: short(value) for name, value in metrics.items() if value is not None and value != ""}
+    kept = {name: value for name, value in metrics.items() if value is not None and value != ""}
+    return {name: float(f"{value:.6g}") if isinstance(value, float) else value for name, value in kept.items()}
 
 
 def _rounded(values: Sequence[int]) -> list[int]:

@@ -28,9 +28,6 @@ import jsonschema
 
 SCHEMAS = Path(__file__).resolve().parent.parent / "results"
 
-# The order of a suite that does not say its own.
-USUAL_ORDER = ("rgbd", "states", "alphabet", "random", "steps")
-
 _SUITE_SCHEMA = {"type": "object", "properties": {"plans": {"type": "array", "items": {"type": "string"}}}}
 
 
@@ -103,6 +100,11 @@ class Row:
     time = _told("time")  # of run + extract, as the schema's "statistics"; None: no time
     paper_time = _told("paper_time")  # the same up to where the paper's clock stopped
     fastest = _told("fastest", False)  # beyond doubt, of all methods on the same points, as the program judges it
+
+    @property
+    def is_thinned(self) -> bool:
+        """results/thin_records.py has left metrics, digits and identities out."""
+        return "id" not in self.raw
 
     @property
     def faster(self) -> bool:
@@ -189,12 +191,11 @@ class Experiment:
         self.title: str = self.plan.get("title") or self.name
         self.methods: dict[str, dict[str, Any]] = {method["name"]: method for method in report["methods"]}
         self.datasets: dict[str, dict[str, Any]] = {dataset["name"]: dataset for dataset in report["datasets"]}
-        # results/thin_records.py has left metrics, digits and identities out.
-        self.is_thinned = any("id" not in run for run in report["runs"])
         told = report["summary"]["rows"]  # one for every run
         if [row["name"] for row in told] != [run["name"] for run in report["runs"]]:
             raise RecordError(f"{folder / 'report.json'} is malformed: its summary is of other runs.")
         self.rows = [Row(*both) for both in zip(report["runs"], told)]
+        self.is_thinned = any(row.is_thinned for row in self.rows)
 
     def series(self) -> list[Series]:
         """In the order of the records, which is that of the plan."""
@@ -275,10 +276,10 @@ def load(folder: str | Path) -> list[Experiment]:
 
 
 def _order(folder: Path) -> list[str]:
-    """The names of a suite's experiments."""
+    """The names of a suite's experiments: those that it names, then all others."""
     here = sorted(entry.name for entry in folder.iterdir() if entry.is_dir())
     suite = folder / "suite.json"
-    told = read_json(suite, _SUITE_SCHEMA).get("plans", USUAL_ORDER) if suite.is_file() else USUAL_ORDER
+    told = read_json(suite, _SUITE_SCHEMA).get("plans", []) if suite.is_file() else []
     return [name for name in told if name in here] + [name for name in here if name not in told]
 
 

@@ -218,10 +218,9 @@ def _by_n(experiment: Experiment, dataset: str, holes: bool) -> dict[str, Any]:
 
 
 def _shape(experiment: Experiment, row: Row) -> str:
-    """Its title; with what tells it from others of the experiment."""
-    sizes = {other["n"] for other in experiment.plan.get("cases", []) if isinstance(other.get("n"), int)}
+    """Its title."""
     title = experiment.dataset_title(row.dataset).removeprefix("Capital letter ")
-    return title + (" with holes" if row.holes else "") + (f", n = {row.n}" if len(sizes) > 1 else "")
+    return title + (" with holes" if row.holes else "")
 
 
 def _by_shape(experiment: Experiment, rows: Sequence[Row], shapes: list[str]) -> dict[str, Any]:

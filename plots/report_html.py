@@ -10,7 +10,7 @@ from records import Experiment, Series
 from report_common import STATUS_WORDS, count_of, label, number, protocol_words, text
 from report_data import BRIEF_METRICS, is_brief, title_of
 from report_summary import Ratio, Standing, Summary, failure_sentences, headline_sentences, mixture_sentence, noise_sentence
-from report_tables import documents, table_html, tables_beside
+from report_tables import documents, table_html, tables_called
 
 EQUAL_WORK = (
     "Times are of equal work: from the points in memory to a valid multipolygon in memory, the same for every "
@@ -121,7 +121,7 @@ _PARAMETERS = "parameters"
 def paper_html(experiments: Sequence[Experiment], folder: Path) -> str:
     claims = [(experiment, claim) for experiment in experiments for claim in experiment.report["summary"]["claims"]]
     made = _claims(claims) if claims else ""
-    made += "".join(map(table_html, tables_beside(documents(experiments, folder), _DIFFERENCES)))
+    made += "".join(map(table_html, tables_called(documents(experiments, folder), _DIFFERENCES)))
     return made or "<p>The records compare nothing with the paper.</p>"
 
 
@@ -178,7 +178,7 @@ def _notes(notes: Sequence[str]) -> str:
 def parameters_html(experiments: Sequence[Experiment], folder: Path) -> str:
     """Who chose them, the program's table of them, what they mean and how the experiments were run."""
     said = facts_of({name: text(words) for name, words in protocol_words(experiments).items()})
-    tables = "".join(map(table_html, tables_beside(documents(experiments, folder), _PARAMETERS)))
+    tables = "".join(map(table_html, tables_called(documents(experiments, folder), _PARAMETERS)))
     return f"<h3>Who chose them</h3>{said}" + tables + _described(experiments) + _plans(experiments)
 
 
@@ -287,7 +287,9 @@ def environment_facts(report: dict[str, Any]) -> dict[str, str]:
     cpu, compiler, load = environment["cpu"], environment["compiler"], environment["load_average"]
 
     def known(value: Any) -> str:
-        return "unknown" if value is None else {True: "yes", False: "no"}.get(value, str(value))
+        if isinstance(value, bool):
+            return "yes" if value else "no"
+        return "unknown" if value is None else str(value)
 
     facts = {
         "Processor": f"{cpu['model']}, {cpu['logical_cores']} logical cores, {cpu['architecture']}",

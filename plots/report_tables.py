@@ -20,11 +20,9 @@ def _read(folder: Path) -> list[dict[str, Any]]:
     return read_json(path, "tables.schema.json", remedy)["documents"] if path.is_file() else []
 
 
-def tables_beside(found: Sequence[dict[str, Any]], identity: str) -> list[dict[str, Any]]:
-    """The tables under the same title as the one with this id; none when there is none."""
-    return [
-        table for document in found if any(one["id"] == identity for one in document["tables"]) for table in document["tables"]
-    ]
+def tables_called(found: Sequence[dict[str, Any]], identity: str) -> list[dict[str, Any]]:
+    """Those with this id."""
+    return [table for document in found for table in document["tables"] if table["id"] == identity]
 
 
 def table_html(table: dict[str, Any]) -> str:

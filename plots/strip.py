@@ -39,7 +39,7 @@ class Shown:
         return self.error / max(other.metric("l2"), 1e-4) if other else 0.0
 
     def failed_others(self) -> list[Row]:
-        return [row for row in self.others if not row.ok and row.status not in NOT_TRIED]
+        return [row for row in self.others if not row.ok]
 
 
 def strip_html(
@@ -90,7 +90,8 @@ def _cases(
             if row.name in read[row.case].results or not row.ok
         }
         for row in experiment.rows:
-            if row.case in shown and row.series != leader and row.series.protocol in protocols:
+            tried = row.case in shown and row.status not in NOT_TRIED
+            if tried and row.series != leader and row.series.protocol in protocols:
                 shown[row.case].others.append(row)
         found += shown.values()
     return found
@@ -100,9 +101,9 @@ def _chosen(shown: Sequence[Shown], every: Sequence[Series]) -> list[tuple[str, 
     """(what it is, the case, a sentence) for each of the six."""
     judged = [one for one in shown if one.experiment.name not in _HAS_NO_TRUTH and one.picture.case["ground_truth"]]
     judged = sorted((one for one in judged if one.error is not None), key=lambda one: (one.error, one.row.name))
-    best, middle, worst = (
-        (judged[0], judged[len(judged) // 2], judged[-1]) if len(judged) > 2 else (*judged, None, None, None)[:3]
-    )
+    best = judged[0] if judged else None
+    middle = judged[len(judged) // 2] if len(judged) > 2 else None
+    worst = judged[-1] if len(judged) > 1 else None
     taken = {id(one) for one in (best, middle, worst)}
     losses = [one for one in judged if id(one) not in taken and math.isfinite(one.error) and one.behind() > 1 + TIE_RELATIVE]
     lost = max(losses, key=Shown.behind, default=None)

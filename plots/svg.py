@@ -36,11 +36,12 @@ class Scale:
         return self.start + (at - low) / (high - low) * (self.end - self.start)
 
     def ticks(self) -> list[float]:
-        """Decades, with 2 and 5 where there are few; of a linear scale quarters."""
+        """Decades, with more steps between them where there are few; of a linear scale quarters."""
         if not self.log:
             return [self.low + k * (self.high - self.low) / 4 for k in range(5)]
         first, last = math.floor(math.log10(self.low)), math.ceil(math.log10(self.high))
-        steps = (1, 2, 5) if self.high / self.low < 100 else (1,)
+        span = self.high / self.low
+        steps = (1, 1.5, 2, 3, 5, 7) if span < 5 else (1, 2, 5) if span < 100 else (1,)
         found = [step * 10.0**k for k in range(first, last + 1) for step in steps]
         return [one for one in found if self.low * 0.999 <= one <= self.high * 1.001]
 
@@ -73,11 +74,11 @@ class Chart:
         for value in self.x.ticks():
             x = self.x(value)
             made.append(f"<path class='grid' d='M{x:.1f} {top:.0f}V{bottom:.0f}'/>")
-            made.append(f"<text x='{x:.1f}' y='{bottom + 15:.0f}' text-anchor='middle'>{number_of(value)}</text>")
+            made.append(f"<text x='{x:.1f}' y='{bottom + 15:.0f}' text-anchor='middle'>{value:g}</text>")
         for value in self.y.ticks():
             y = self.y(value)
             made.append(f"<path class='grid' d='M{left:.0f} {y:.1f}H{right:.0f}'/>")
-            made.append(f"<text x='{left - 6:.0f}' y='{y + 4:.1f}' text-anchor='end'>{number_of(value)}</text>")
+            made.append(f"<text x='{left - 6:.0f}' y='{y + 4:.1f}' text-anchor='end'>{value:g}</text>")
         made.append(
             f"<text class='title' x='{(left + right) / 2:.0f}' y='{self.height - 5}' text-anchor='middle'>{text(x_title)}</text>"
         )
@@ -89,9 +90,9 @@ class Chart:
         steps = "".join(f"{'L' if k else 'M'}{self.x(x):.1f} {self.y(y):.1f}" for k, (x, y) in enumerate(points))
         return f"<path class='{css}' d='{steps}' style='{style}'><title>{text(title)}</title></path>"
 
-    def mark(self, x: float, y: float, radius: float, css: str, style: str, title: str) -> str:
+    def mark(self, x: float, y: float, radius: float, style: str, title: str) -> str:
         at = f"cx='{self.x(x):.1f}' cy='{self.y(y):.1f}' r='{radius:g}'"
-        return f"<circle class='{css}' {at} style='{style}'><title>{text(title)}</title></circle>"
+        return f"<circle class='mark' {at} style='{style}'><title>{text(title)}</title></circle>"
 
 
 @functools.cache
@@ -99,11 +100,6 @@ def width_of(name: str, bold: bool) -> float:
     """Of a name beside a mark, in pixels. That of DejaVu Sans, the widest of the page's fonts."""
     font = FontProperties(family="DejaVu Sans", weight="bold" if bold else "normal", size=_FONT_SIZE)
     return text_to_path.get_text_width_height_descent(name, font, ismath=False)[0]
-
-
-def number_of(value: float) -> str:
-    """0.1, 20, 1000: a tick's text."""
-    return f"{value:g}" if value < 1e6 else number(value)
 
 
 def apart(places: Sequence[float], low: float, high: float) -> list[float]:

@@ -160,6 +160,11 @@ TEST(CompareDocument, SaysOtherMachinesPointsParametersAndVersions) {
   EXPECT_TRUE(has_note(document, "OTHER POINTS in 1 of 1 pairs (polylidar)"));
   EXPECT_TRUE(has_note(document, "Other parameters in 1 of 1 pairs"));
   EXPECT_TRUE(has_note(document, "Other versions of polylidar: A 1.0; B 2.0."));
+  // Kept records have the first digits of the hashes.
+  record::RunRecord kept = run;
+  kept.dataset_sha256.resize(12);
+  EXPECT_FALSE(has_note(document_of(report_of({kept}), report_of({run})), "OTHER POINTS"));
+  EXPECT_TRUE(has_note(document_of(report_of({kept}), report_of({other})), "OTHER POINTS"));
   const table::Document same = document_of(report_of({run}), report_of({run}));
   for (const char* words : {"MACHINES", "OTHER POINTS", "Other parameters", "Other versions"})
     EXPECT_FALSE(has_note(same, words)) << words;

@@ -11,6 +11,7 @@ import warnings
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import matplotlib.colors
 import plot_samples
@@ -123,6 +124,7 @@ class Data(WithSuite):
         self.assertEqual(list(cloud.get_xdata()), [one["ground_truth_convexity"] for one in stars])
         self.assertEqual(list(cloud.get_ydata()), [100 * one["l2_paper"] for one in stars])
         median = lines_by_label(axes)["_median"]
+        self.assertGreater(len(median.get_xdata()), 3)
         for x, y in zip(median.get_xdata(), median.get_ydata()):
             inside = [100 * one["l2_paper"] for one in stars if abs(one["ground_truth_convexity"] - x) < 0.0125]
             self.assertAlmostEqual(y, statistics.median(inside), places=12)
@@ -269,6 +271,14 @@ class Data(WithSuite):
             self.assertIn(words, hulls._caption(picture, [Row(plot_samples.run("polylidar", "paper", "ca", 8000, holes), {})]))
         for module, names in ((shapes, ["shapes"]), (rgbd, ["rgbd"]), (examples, ["convex_and_concave", "convexity"])):
             self.assertEqual(list(self.draw(module)), names)
+
+    def test_a_figure_of_one_method_is_of_one_protocol(self) -> None:
+        runs = [("paper", 1), ("auto", 1), ("paper", 2), ("auto", 2), ("auto", 3)]
+        rows = [Row(plot_samples.run("polylidar", protocol, f"floor-{k}", 900), {}) for protocol, k in runs]
+        experiment = mock.Mock(rows=rows)
+        experiment.picture_cases.return_value = [row.case for row in rows]
+        scenes = rgbd._scenes(mock.Mock(), experiment)
+        self.assertEqual([row.name for row, _ in scenes], [rows[0].name, rows[2].name])
 
     def test_real_points_have_a_panel_a_method_and_no_truth(self) -> None:
         rows = [plot_samples.run(*series, "real-trees", 700) for series in plot_samples.SERIES]

@@ -6,6 +6,7 @@ import re
 import shutil
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 
@@ -19,7 +20,7 @@ import ratings
 import strip
 import svg
 import where
-from records import RecordError, load
+from records import RecordError, Row, load
 
 
 def words(html: str) -> str:
@@ -216,6 +217,15 @@ class Strip(WithFolder):
         self.assertLess(rows[cards["Best"]].metric("l2"), rows[cards["Median"]].metric("l2"))
         self.assertLess(rows[cards["Median"]].metric("l2"), rows[cards["Worst"]].metric("l2"))
         self.assertIn("none of these: real points and an input that broke somebody", html)
+
+    def test_of_two_cases_one_is_the_worst(self) -> None:
+        one, two = sorted(plot_samples.suite()["states"]["runs"][:2], key=lambda row: row["metrics"]["l2"])
+        picture = mock.Mock(case={"ground_truth": ["a shape"]}, results={})
+        experiment = mock.Mock()
+        experiment.name = "states"
+        shown = [strip.Shown(experiment, Row(row, {}), picture) for row in (two, one)]
+        chosen = {what: case.row.name if case else None for what, case, _ in strip._chosen(shown, [])}
+        self.assertEqual((chosen["Best"], chosen["Median"], chosen["Worst"]), (one["name"], None, two["name"]))
 
     def test_without_a_leader_there_is_no_strip(self) -> None:
         self.assertEqual(strip.strip_html([], None), "")

@@ -29,7 +29,8 @@ def _convex_and_concave(run: Run) -> Drawn | None:
     if not run.has("alphabet"):
         return None
     experiment = run.experiment("alphabet")
-    rows = {row.method: row for row in experiment.rows if row.dataset == _LETTER and row.ok}
+    # Of the first protocol that the method has rows of.
+    rows = {row.method: row for row in reversed(experiment.rows) if row.dataset == _LETTER and row.ok}
     found = {method: _result(run, experiment, rows[method]) for method in ("convex_hull", "polylidar") if method in rows}
     if len(found) < 2 or None in found.values():
         return None
@@ -42,7 +43,8 @@ def _convexity(run: Run) -> Drawn | None:
     if not run.has("random"):
         return None
     experiment = run.experiment("random")
-    rows = {row.name: row for row in experiment.rows if row.method == "polylidar" and row.ok}
+    own = [row for row in experiment.rows if row.method == "polylidar" and row.ok]
+    rows = {row.name: row for row in own if row.series == own[0].series}
     kept = [rows[line["run"]] for line in experiment.picture_lines() if line["kind"] == "result" and line["run"] in rows]
     if len(kept) < 2:
         return None

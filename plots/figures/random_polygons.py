@@ -29,7 +29,7 @@ def draw(run: Run) -> Iterator[Drawn]:
     chosen = [row for row in scored if row.series == series]
     stars = [row for row in chosen if row.dataset.startswith(_STARS)]
     classes = run.paper.get("convexity_classes", {}).get("rows", [])
-    name = label(series, [series])
+    name = label(series, [row.series for row in scored])
     caption = (
         f"Error of {name} on {len(chosen):,} random polygons of {chosen[0].n:,} points. (a) Star-shaped polygons as in the "
         f"paper ({len(stars):,}) against the convexity of the ground truth: every run, the median, and from the 5 % to the "

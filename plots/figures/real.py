@@ -16,10 +16,9 @@ from style import role_color
 def draw(run: Run) -> Iterator[Drawn]:
     experiment = run.experiment("real")
     drawn = 0
-    for case in experiment.picture_cases():
-        picture = run.picture(experiment, case)
+    for case, picture in experiment.pictures().items():
         rows = [row for row in experiment.rows if row.case == case]
-        if picture is None or not picture.case["points"]:
+        if not picture.case["points"]:
             continue
         yield Drawn(rows[0].dataset.replace("-", "_"), _figure(picture, rows), _caption(experiment, picture, rows))
         drawn += 1

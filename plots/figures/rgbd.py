@@ -31,6 +31,7 @@ def _scenes(run: Run, experiment: Experiment) -> list[tuple[Row, Picture]]:
     """The first and the last floor that have a picture: seen from straight above and at an angle in the plan's own."""
     kept = set(experiment.picture_cases())
     rows = [row for row in experiment.rows if row.method == _METHOD and row.ok and row.case in kept]
+    rows = [row for row in rows if row.series == rows[0].series]
     chosen = list({row.case: row for row in (rows[:1] + rows[-1:])}.values())
     pairs = [(row, run.picture(experiment, row.case)) for row in chosen]
     return [(row, picture) for row, picture in pairs if picture and picture.polygons(row.name) is not None]

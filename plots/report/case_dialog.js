@@ -26,7 +26,7 @@ const layers = { points: true, truth: true, shade: true, farthest: true };
 let chosen_series = null;
 const outlined = new Set();
 
-// ---- opening and closing --------------------------------------------------------------------------------
+// Opening and closing.
 
 /** Opens the case, such as "ca/n:2000/holes:1", with the result of the run shaded; without a run's name the worst. The
     promise is kept when the picture is there. */
@@ -77,7 +77,7 @@ function go(step) {
   show(item.entry, item.entry.runs.find((run) => run.series === chosen_series) ?? item.run);
 }
 
-// ---- the dialog's parts, made once ----------------------------------------------------------------------
+// The dialog's parts, made once.
 
 function button(words, sign, action) {
   return make("button", { type: "button", title: words, "aria-label": words, click: action }, sign);
@@ -178,7 +178,7 @@ function on_key(event) {
   action();
 }
 
-// ---- the methods and their numbers ----------------------------------------------------------------------
+// The methods and their numbers.
 
 function list_runs() {
   const had_focus = parts.runs.contains(document.activeElement);
@@ -247,7 +247,7 @@ function list_facts() {
   );
 }
 
-// ---- painting, zoom and pan -----------------------------------------------------------------------------
+// Painting, zoom and pan.
 
 let frame = 0;
 

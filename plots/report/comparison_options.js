@@ -128,7 +128,6 @@ function forestSeries(change, mark, lines, ink) {
       type: "line",
       silent: true,
       symbol: "none",
-      connectNulls: false,
       data: ends,
       lineStyle: { color: colour, width: mark.filled ? 2.4 : 1.6 },
       tooltip: { show: false },

@@ -29,7 +29,7 @@ export class PairTable extends RunTable {
       numberColumn("adjusted_p_value", "p by Holm", false, "Time", this.get("adjusted_p_value")),
       numberColumn("l2_a", "L2 of A, %", true, "Error", percent("l2_a")),
       numberColumn("l2_b", "L2 of B, %", true, "Error", percent("l2_b")),
-      numberColumn("error_change", "L2, B\u00a0−\u00a0A", true, "Error", percent("error_change"), change),
+      numberColumn("error_change", "L2, B\u00a0−\u00a0A, %", true, "Error", percent("error_change"), change),
       wordColumn("differs", "Other in B", this.get("differs"), differs),
       this.detailColumn(words.some((word) => word.startsWith("now "))),
     ];

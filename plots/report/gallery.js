@@ -135,7 +135,7 @@ function remark() {
   return make("p", { class: "gallery-remark" }, words.join(" "));
 }
 
-// ---- the list -------------------------------------------------------------------------------------------
+// The list.
 
 /** The run that stands for a case under the filters; undefined: the case is filtered out. */
 function run_for(entry) {

@@ -83,7 +83,9 @@ export class PlotSection extends Plots {
     const change = (event) => this.chooseMetric(event.target.value);
     this.metricSelect = make("select", { id: "metric-select", change });
     const words = { logX: "log n", logTime: "log time", logError: "log error", bands: "intervals" };
-    const checks = Object.entries(words).map((one) => this.check(...one));
+    const checks = Object.entries(words).map(([key, text]) =>
+      makeCheck(text, { id: `check-${key}`, checked: this.state[key] }, (checked) => this.set({ [key]: checked })),
+    );
     return make(
       "div",
       { class: "controls" },
@@ -92,10 +94,6 @@ export class PlotSection extends Plots {
       make("label", {}, "Error", this.metricSelect),
       make("span", { class: "checks" }, ...checks),
     );
-  }
-
-  check(key, words) {
-    return makeCheck(words, { id: `check-${key}`, checked: this.state[key] }, (checked) => this.set({ [key]: checked }));
   }
 
   /** A chart's place with its title, its buttons and its values as a table; `extra` stands before the buttons. */

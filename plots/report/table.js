@@ -81,7 +81,7 @@ export class RunTable {
       numberColumn("paper_time", "Time as in the paper, ms", false, "Time", this.get("paper_time")),
       numberColumn("repetitions", "Repetitions", false, "Time", this.get("repetitions"), repetitions),
       ...metrics.map((metric) => this.metricColumn(metric)),
-      ...parameters.map((name) => numberColumn(name, name.slice("parameter ".length), false, "Parameters", this.get(name))),
+      ...parameters.map((name) => this.parameterColumn(name)),
       wordColumn("flags", "Doubts", this.get("flags"), rows.columns.flags.words.some(Boolean)),
       wordColumn("version", "Version", this.get("version"), false),
       ...(rows.has("output") ? [wordColumn("output", "Result’s SHA-256", this.get("output"), false)] : []),
@@ -128,6 +128,13 @@ export class RunTable {
     return numberColumn(`metric-${metric.name}`, title, ["l2", "iou"].includes(metric.name), "Scores", value, (row) =>
       formatScore(metric, value(row), 4),
     );
+  }
+
+  /** Sorted as numbers; "∞" is how the records write the largest one. */
+  parameterColumn(name) {
+    const raw = this.get(name);
+    const value = (row) => (raw(row) === "∞" ? Infinity : raw(row));
+    return numberColumn(name, name.slice("parameter ".length), false, "Parameters", value, (row) => formatNumber(raw(row), 4));
   }
 
   method(row) {
