@@ -71,6 +71,12 @@ class Steps {
   virtual void begin(std::string_view name) = 0;
 };
 
+/// For a caller to whom the steps do not matter.
+class NoSteps final : public Steps {
+ public:
+  void begin(std::string_view /*name*/) override {}
+};
+
 /// The method cannot run here because something is not installed or not reachable. `what()` says what;
 /// `remedy()` is the command (or the setting) that helps.
 class NotInstalled : public std::runtime_error {
@@ -157,5 +163,8 @@ struct AdapterEntry {
 
 /// All methods known to this build, in the order of the tables.
 const std::vector<AdapterEntry>& adapter_registry();
+
+/// The one of them that has this name, or null.
+const AdapterEntry* find_adapter(std::string_view name);
 
 }  // namespace hullbench

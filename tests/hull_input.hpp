@@ -38,12 +38,6 @@ using polylidar::testing::canonical;
 using polylidar::testing::core_hull;
 using polylidar::testing::hole_count;
 
-/// Steps for callers that time nothing.
-class NoSteps final : public Steps {
- public:
-  void begin(std::string_view /*name*/) override {}
-};
-
 /// Steps that remembers what it was told, in order.
 class StepNames final : public Steps {
  public:

@@ -37,6 +37,12 @@ class HullbenchTest : public ::testing::Test {
     return run_program(command(arguments), in_folder(options));
   }
 
+  /// A line in a shell that finds our programs, in the test's folder.
+  Outcome shell(const std::string& line, const ProgramOptions& options = {}) const {
+    const std::string path = "PATH='" + fs::path(HULLBENCH).parent_path().string() + "':$PATH; ";
+    return run_program({"/bin/sh", "-c", path + line}, in_folder(options));
+  }
+
   /// Writes the plan into a file; its path.
   std::string write(const json& plan) const { return write_plan(folder(), plan); }
 

@@ -1,7 +1,6 @@
 // A method that is a library of its own: it comes into the process when it is asked for, and no sooner.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -36,10 +35,8 @@ TEST(AdapterModule, SaysWhyItCannotBeLoaded) {
 }
 
 void expect_library_comes_with(const std::string& method, const std::string& library) {
-  const auto& registry = adapter_registry();
-  const auto found =
-      std::ranges::find_if(registry, [&](const AdapterEntry& entry) { return entry.name == method; });
-  ASSERT_NE(found, registry.end());
+  const AdapterEntry* found = find_adapter(method);
+  ASSERT_NE(found, nullptr);
   EXPECT_FALSE(is_in_this_process(library));
   try {
     const auto adapter = found->make();

@@ -30,30 +30,6 @@ double smallest_but_tail(std::vector<double> values) {
   return values[tail - 1];
 }
 
-/// The interval from all resamples of whole clusters, each written out.
-statistics::Interval brute_force(const Clusters& clusters) {
-  std::vector<double> lower;
-  std::vector<double> negated_upper;
-  std::vector<std::size_t> drawn(clusters.size(), 0);
-  for (bool more = true; more;) {
-    std::vector<double> values;
-    for (const std::size_t which : drawn)
-      values.insert(values.end(), clusters[which].begin(), clusters[which].end());
-    std::ranges::sort(values);
-    lower.push_back(values[(values.size() - 1) / 2]);
-    negated_upper.push_back(-values[values.size() / 2]);
-    more = false;
-    for (std::size_t& which : drawn) {
-      if (++which < clusters.size()) {
-        more = true;
-        break;
-      }
-      which = 0;
-    }
-  }
-  return {smallest_but_tail(lower), -smallest_but_tail(negated_upper)};
-}
-
 /// Calls `take` with every choice of one of `counts[i]` for each i.
 template <typename Take>
 void for_each_choice(const std::vector<std::size_t>& counts, const Take& take) {
@@ -66,6 +42,21 @@ void for_each_choice(const std::vector<std::size_t>& counts, const Take& take) {
       if (!more) chosen[place] = 0;
     }
   }
+}
+
+/// The interval from all resamples of whole clusters, each written out.
+statistics::Interval brute_force(const Clusters& clusters) {
+  std::vector<double> lower;
+  std::vector<double> negated_upper;
+  for_each_choice(std::vector<std::size_t>(clusters.size(), clusters.size()), [&](const auto& drawn) {
+    std::vector<double> values;
+    for (const std::size_t which : drawn)
+      values.insert(values.end(), clusters[which].begin(), clusters[which].end());
+    std::ranges::sort(values);
+    lower.push_back(values[(values.size() - 1) / 2]);
+    negated_upper.push_back(-values[values.size() / 2]);
+  });
+  return {smallest_but_tail(lower), -smallest_but_tail(negated_upper)};
 }
 
 /// The middle of every resample of a case, the upper one of two or the lower, each written out with how

@@ -1,9 +1,6 @@
 // The program as its users meet it: what it prints, its exit codes, bad input, bad circumstances and
 // interruptions.
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -43,26 +40,13 @@ class CommandLineTest : public HullbenchTest {
   }
 };
 
-std::vector<json> lines_of(const fs::path& file) {
-  return record::load_json_lines(file).lines;
-}
-
 void expect_no_repetition_twice(const fs::path& run, int repetitions) {
   std::set<std::pair<std::string, int>> seen;
-  for (const json& line : lines_of(run / "repetitions.jsonl")) {
+  for (const json& line : record::load_json_lines(run / "repetitions.jsonl").lines) {
     EXPECT_TRUE(seen.emplace(line["id"].get<std::string>(), line["repetition"].get<int>()).second) << line;
   }
-  for (const json& line : lines_of(run / "runs.jsonl"))
+  for (const json& line : record::load_json_lines(run / "runs.jsonl").lines)
     EXPECT_EQ(line["time_ns"].size(), static_cast<std::size_t>(repetitions));
-}
-
-TEST_F(CommandLineTest, HelpTellsCommandsAndExitCodes) {
-  const Outcome outcome = succeeded(hullbench({"--help"}));
-  for (const char* word : {"list", "run", "tables", "validate", "worker", "Exit codes", "130  interrupted"}) {
-    EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
-  }
-  EXPECT_EQ(hullbench({"run", "--help"}).code, 0);
-  EXPECT_EQ(hullbench({"--version"}).code, 0);
 }
 
 /// The lines below "Subcommands:" begin with their names.
@@ -89,6 +73,8 @@ void expect_every_method_in(const std::string& listing) {
 }
 
 TEST_F(CommandLineTest, EverySubcommandsHelpHasAnExample) {
+  expect_says(succeeded(hullbench({"--help"})).out, "130  interrupted");
+  succeeded(hullbench({"--version"}));
   // In their order, so that what one leaves another can take.
   std::vector<std::pair<std::string, std::string>> examples;
   std::vector<std::vector<std::string>> commands;
@@ -101,7 +87,7 @@ TEST_F(CommandLineTest, EverySubcommandsHelpHasAnExample) {
   for (std::vector<std::string> words : commands) {
     const std::string name = words.back();
     words.emplace_back("--help");
-    const std::string help = hullbench(words).out;
+    const std::string help = succeeded(hullbench(words)).out;
     std::smatch found;
     ASSERT_TRUE(std::regex_search(help, found, std::regex("Example: (.*hullbench .+)\n"))) << help;
     expect_says(help, "Exit codes:");
@@ -114,11 +100,10 @@ TEST_F(CommandLineTest, EverySubcommandsHelpHasAnExample) {
   // not here.
   const std::set<std::string> left_out = {"tune", "merge",  "rescore", "readme", "adapter",
                                           "test", "submit", "pack",    "check"};
-  const std::string path = "PATH='" + fs::path(HULLBENCH).parent_path().string() + "':$PATH; ";
   const ProgramOptions options = {{}, {{"HULLBENCH_POSTGIS_DSN", "host=127.0.0.1 port=1"}}, false};
   for (const auto& [name, example] : examples) {
     if (left_out.contains(name)) continue;
-    const Outcome outcome = run_program({"/bin/sh", "-c", path + example}, in_folder(options));
+    const Outcome outcome = shell(example, options);
     EXPECT_EQ(outcome.code, 0) << example << "\n" << outcome.err;
     if (name == "list") expect_every_method_in(outcome.out);
   }
@@ -195,16 +180,19 @@ TEST_F(CommandLineTest, OutputFolderWithSomethingElse) {
   EXPECT_EQ(hullbench({"run", small, "--out", "mine"}).code, 0);
   expect_refusal(hullbench({"run", small, "--out", "mine", "--seed", "2"}), 2, "holds another run");
   EXPECT_EQ(hullbench({"run", small, "--out", "mine", "--seed", "2", "--force"}).code, 0);
+  // A user's folder that has the name of the scratch folder.
+  fs::create_directories(folder() / "thesis" / "scratch");
+  write_text(folder() / "thesis" / "scratch" / "notes", "mine");
+  expect_refusal(hullbench({"run", small, "--out", "thesis"}), 2, "holds something else than a run");
+  EXPECT_EQ(read_text(folder() / "thesis" / "scratch" / "notes"), "mine");
 }
 
 TEST_F(CommandLineTest, FullDisk) {
   const std::string small = plan({500}, 1000);
   // A limit on the size of files stands for a full disk; its signal is ignored, so that writing fails
   // instead.
-  expect_end(run_program({"/bin/sh", "-c", R"(trap '' XFSZ; ulimit -f 40; exec "$0" run "$1" --out run)",
-                          HULLBENCH, small},
-                         in_folder()),
-             1, "repetitions.jsonl: is the disk full?");
+  expect_end(shell("trap '' XFSZ; ulimit -f 40; exec hullbench run small.json --out run"), 1,
+             "repetitions.jsonl: is the disk full?");
   EXPECT_EQ(hullbench({"run", small, "--out", "run"}).code, 0);
   expect_no_repetition_twice(folder() / "run", 1000);
 }
@@ -213,13 +201,10 @@ TEST_F(CommandLineTest, FullStandardOutput) {
   succeeded(hullbench({"run", plan({500}, 1), "--out", "run"}));
   for (const std::string words :
        {"metrics --json", "tables run", "league run", "--help", "run small.json --dry-run"}) {
-    expect_end(run_program({"/bin/sh", "-c", std::string("'") + HULLBENCH + "' " + words + " > /dev/full"},
-                           in_folder()),
-               1, "cannot write standard output; is the disk full?");
+    expect_end(shell("hullbench " + words + " > /dev/full"), 1,
+               "cannot write standard output; is the disk full?");
   }
-  const Outcome closed = run_program(
-      {"/bin/sh", "-c", std::string("'") + HULLBENCH + "' metrics --json | head -c 1"}, in_folder());
-  EXPECT_EQ(closed.err, "") << "whoever reads has enough";
+  EXPECT_EQ(shell("hullbench metrics --json | head -c 1").err, "") << "whoever reads has enough";
 }
 
 TEST_F(CommandLineTest, DevicesAndLinksAreWrittenTo) {
@@ -229,10 +214,7 @@ TEST_F(CommandLineTest, DevicesAndLinksAreWrittenTo) {
   EXPECT_TRUE(fs::is_symlink(folder() / "link.json"));
   EXPECT_TRUE(fs::is_regular_file(folder() / "there.json"));
   ASSERT_EQ(::mkfifo((folder() / "pipe").c_str(), 0600), 0);
-  const Outcome piped =
-      run_program({"/bin/sh", "-c",
-                   std::string("cat pipe & '") + HULLBENCH + "' league run --out pipe > /dev/null; wait"},
-                  in_folder());
+  const Outcome piped = shell("cat pipe & hullbench league run --out pipe > /dev/null; wait");
   EXPECT_TRUE(json::parse(piped.out).is_object());
   EXPECT_TRUE(fs::is_fifo(folder() / "pipe"));
 }
@@ -312,10 +294,8 @@ TEST_F(CommandLineTest, NumbersThatAreNone) {
 TEST_F(CommandLineTest, AWorkerAnswersWhatIsNoRequestAndGoesOn) {
   const std::string requests =
       R"({"request":"hello"}\n{"request":5}\n[]\n{"request":"dance"}\n{"request":"quit"}\n)";
-  const Outcome outcome = succeeded(run_program(
-      {"/bin/sh", "-c",
-       std::string("printf '") + requests + "' | '" + HULLBENCH + "' worker --method convex_hull"},
-      in_folder()));
+  const Outcome outcome =
+      succeeded(shell("printf '" + requests + "' | hullbench worker --method convex_hull"));
   std::istringstream lines(outcome.out);
   std::vector<json> replies;
   for (std::string line; std::getline(lines, line);) replies.push_back(json::parse(line));
@@ -329,12 +309,6 @@ TEST_F(CommandLineTest, APlansFileNeedsNoEnding) {
   fs::copy_file(plan({500}, 1), folder() / "my_plan");
   EXPECT_EQ(succeeded(hullbench({"run", "my_plan", "--dry-run"})).out,
             "polylidar/ca/n:500/holes:0/protocol:paper\npolylidar/ca/n:500/holes:1/protocol:paper\n");
-}
-
-TEST_F(CommandLineTest, NothingMatches) {
-  const Outcome outcome = hullbench({"run", plan({500}, 1), "--filter", "cgal"});
-  expect_refusal(outcome, 6, "no run of the plan 'small' has a name that matches 'cgal'");
-  EXPECT_FALSE(fs::exists(folder() / "results"));
 }
 
 TEST_F(CommandLineTest, DryRunPrintsNamesAndDoesNothing) {
@@ -365,7 +339,7 @@ TEST_F(CommandLineTest, OptionsReplaceThePlansValues) {
                        "--out", "run"})
                 .code,
             0);
-  const auto rows = lines_of(folder() / "run" / "runs.jsonl");
+  const auto rows = read_lines("run/runs.jsonl");
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0]["time_ns"].size(), 2U);
   EXPECT_EQ(rows[0]["seed"], 7);
@@ -377,7 +351,7 @@ TEST_F(CommandLineTest, SeveralPassesAreSaidAndRecorded) {
   expect_says(outcome.err, "hullbench: pass 1 of 2: ");
   expect_says(outcome.err, "pass 1 of 2 is done; 'hullbench tables run' prints");
   expect_says(outcome.err, "hullbench: pass 2 of 2: ");
-  const auto rows = lines_of(folder() / "run" / "runs.jsonl");
+  const auto rows = read_lines("run/runs.jsonl");
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0]["passes"], (json{1, 1, 2}));
   EXPECT_EQ(rows[0]["canary_ns"].size(), 3U);
@@ -402,7 +376,7 @@ TEST_F(CommandLineTest, AFilterOfThePlanIsForWhoAsksForNone) {
   EXPECT_EQ(hullbench({"run", small, "--dry-run", "--filter", "holes:0"}).out,
             "polylidar/ca/n:500/holes:0/protocol:paper\n");
   ASSERT_EQ(hullbench({"run", small, "--out", "run"}).code, 0);
-  const auto rows = lines_of(folder() / "run" / "runs.jsonl");
+  const auto rows = read_lines("run/runs.jsonl");
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0]["name"].get<std::string>() + "\n", with_holes);
   source["filter"] = "cgal";
@@ -418,7 +392,7 @@ TEST_F(CommandLineTest, MembersOfAFamilyHaveARowEach) {
   const Outcome outcome = succeeded(hullbench({"run", combs, "--out", "run"}));
   std::set<std::string> names;
   std::set<std::string> points;
-  for (const json& row : lines_of(folder() / "run" / "runs.jsonl")) {
+  for (const json& row : read_lines("run/runs.jsonl")) {
     EXPECT_EQ(row["status"], "ok") << row;
     names.insert(row["dataset"]);
     points.insert(row["dataset_sha256"]);
@@ -449,7 +423,7 @@ TEST_F(CommandLineTest, RecordedFloorsTakeThePlaceOfTheSimulatedOnes) {
   const Outcome outcome = succeeded(hullbench({"run", "rgbd", "--recordings", "floors", "--filter",
                                                "^polylidar/", "--repetitions", "1", "--out", "run"}));
   std::set<std::string> names;
-  for (const json& row : lines_of(folder() / "run" / "runs.jsonl")) {
+  for (const json& row : read_lines("run/runs.jsonl")) {
     EXPECT_EQ(row["status"], "ok") << row;
     EXPECT_EQ(row["n"], 41 * 31);
     // The outline of the grid is the floor's own, within the rounding of its coordinates to six decimals.
@@ -467,7 +441,7 @@ TEST_F(CommandLineTest, RecordingsAreAddedToTheRealPointsWithoutATruth) {
   fs::remove(folder() / "floors" / "hall" / "gt.geojson");
   const Outcome outcome = succeeded(hullbench(
       {"run", "real", "--recordings", "floors", "--filter", "^convex_hull/real-recorded", "--out", "run"}));
-  const std::vector<json> rows = lines_of(folder() / "run" / "runs.jsonl");
+  const std::vector<json> rows = read_lines("run/runs.jsonl");
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0]["dataset"], "real-recorded-1");
   EXPECT_EQ(rows[0]["n"], 41 * 31);
@@ -492,7 +466,7 @@ TEST_F(CommandLineTest, LimitsReachTheWorkers) {
   const Outcome outcome = hullbench({"run", plan({64000}, 1), "--timeout", "0.001", "--mem-limit", "1000",
                                      "--filter", "holes:0", "--out", "run"});
   EXPECT_EQ(outcome.code, 4) << outcome.err;
-  const auto rows = lines_of(folder() / "run" / "runs.jsonl");
+  const auto rows = read_lines("run/runs.jsonl");
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0]["status"], "timeout");
   const json header = json::parse(read_text(folder() / "run" / "run.json"));
@@ -504,8 +478,6 @@ TEST_F(CommandLineTest, TablesAndValidateOfWhatIsNotThere) {
   expect_refusal(hullbench({"tables"}), 2, "there is no run in results/latest");
   expect_refusal(hullbench({"tables", "/nowhere"}), 2, "there is no run in /nowhere");
   expect_refusal(hullbench({"validate", "/nowhere.json"}), 2, "there is no file /nowhere.json");
-  write_text(folder() / "report.json", "{}");
-  EXPECT_EQ(hullbench({"validate", "report.json"}).code, 1);
   write_text(folder() / "report.json", "{");
   EXPECT_EQ(hullbench({"validate", "report.json"}).code, 1);
   write_text(folder() / "tune.json.xz",
@@ -566,58 +538,17 @@ TEST_F(CommandLineTest, ListKnowsEveryMethodAndDataSet) {
   EXPECT_GE(listing["datasets"].size(), 2U);
 }
 
-/// A server that takes connections and says nothing, as behind a wrong port.
-class SilentServer {
- public:
-  SilentServer() : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    auto* generic = reinterpret_cast<sockaddr*>(&address);
-    EXPECT_EQ(::bind(socket_, generic, size), 0);
-    EXPECT_EQ(::listen(socket_, 8), 0);
-    EXPECT_EQ(::getsockname(socket_, generic, &size), 0);
-    port_ = ntohs(address.sin_port);
-  }
-  ~SilentServer() { ::close(socket_); }
-  SilentServer(const SilentServer&) = delete;
-  SilentServer& operator=(const SilentServer&) = delete;
-  std::string port() const { return std::to_string(port_); }
-
- private:
-  int socket_;
-  int port_ = 0;
-};
-
-TEST_F(CommandLineTest, ADatabaseThatAnswersNothingIsAVisibleRow) {
-  const SilentServer silent;
-  for (const std::string& port : {std::string("1"), silent.port()}) {
-    const ProgramOptions options = {
-        {}, {{"HULLBENCH_POSTGIS_DSN", "host=127.0.0.1 connect_timeout=2 port=" + port}}, false};
-    const std::string out = "run" + port;
-    const Outcome outcome = hullbench({"run", "states", "--filter", "postgis/hi/n:2000/holes:0/protocol:auto",
-                                       "--repetitions", "1", "--out", out},
-                                      options);
-    EXPECT_EQ(outcome.code, 6) << outcome.err;
-    const auto rows = lines_of(folder() / out / "runs.jsonl");
-    ASSERT_EQ(rows.size(), 1U);
-    EXPECT_EQ(rows[0]["status"], "not_installed");
-    expect_says(outcome.err, "postgis does not start (not_installed): ");
-    expect_says(outcome.err, "0 ok, 0 failed, 1 not installed");
-  }
-}
-
-TEST_F(CommandLineTest, PostgisThatIsNotInstalledIsARowWithItsRemedy) {
-  const fs::path nothing = folder() / "no-programs";
-  fs::create_directory(nothing);
-  const Outcome outcome =
-      succeeded(hullbench({"run", "states", "--filter", "(convex_hull|postgis)/hi/n:2000/holes:0",
-                           "--repetitions", "1", "--out", "run"},
-                          {{}, {{"HULLBENCH_POSTGRES_BIN", nothing.string()}}, false}));
-  expect_says(outcome.err, "postgis does not start (not_installed): PostgreSQL is not installed");
-  expect_says(outcome.err, "apt-get install postgresql-postgis");
-  expect_says(outcome.err, "1 ok, 0 failed, 2 not installed");
+TEST_F(CommandLineTest, ADatabaseThatIsNotThereIsAVisibleRow) {
+  const ProgramOptions options = {{}, {{"HULLBENCH_POSTGIS_DSN", "host=127.0.0.1 port=1"}}, false};
+  const Outcome outcome = hullbench({"run", "states", "--filter", "postgis/hi/n:2000/holes:0/protocol:auto",
+                                     "--repetitions", "1", "--out", "run"},
+                                    options);
+  EXPECT_EQ(outcome.code, 6) << outcome.err;
+  const auto rows = read_lines("run/runs.jsonl");
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0]["status"], "not_installed");
+  expect_says(outcome.err, "postgis does not start (not_installed): ");
+  expect_says(outcome.err, "0 ok, 0 failed, 1 not installed");
 }
 
 TEST_F(CommandLineTest, WhatWasNotInstalledIsMeasuredWhenItIsThere) {
@@ -631,12 +562,17 @@ TEST_F(CommandLineTest, WhatWasNotInstalledIsMeasuredWhenItIsThere) {
   };
   const auto statuses = [&](const fs::path& rows) {
     std::map<std::string, int> counts;
-    for (const json& row : lines_of(folder() / rows)) ++counts[row["status"]];
+    for (const json& row : read_lines(rows)) ++counts[row["status"]];
     return counts;
   };
   const std::map<std::string, int> both = {{"ok", 3}};
 
-  ASSERT_EQ(run({"states"}, missing).code, 0);
+  fs::create_directory(folder() / "no-programs");
+  const Outcome first = run({"states"}, missing);
+  ASSERT_EQ(first.code, 0) << first.err;
+  expect_says(first.err, "postgis does not start (not_installed): PostgreSQL is not installed");
+  expect_says(first.err, "apt-get install postgresql-postgis");
+  expect_says(first.err, "1 ok, 0 failed, 2 not installed");
   EXPECT_EQ(statuses("run/runs.jsonl"), (std::map<std::string, int>{{"not_installed", 2}, {"ok", 1}}));
   const Outcome second = run({"states"}, {});
   expect_says(second.err,
@@ -667,7 +603,7 @@ TEST_F(CommandLineTest, AWorkerThatIsKilledIsARowAndTheRestIsMeasured) {
   const Outcome outcome = program.wait();
   EXPECT_EQ(outcome.code, 4) << outcome.err;
   std::map<std::string, int> counts;
-  for (const json& row : lines_of(folder() / "run" / "runs.jsonl")) {
+  for (const json& row : read_lines("run/runs.jsonl")) {
     ++counts[row["status"]];
     if (row["status"] != "crash") continue;
     expect_says(row["detail"].get<std::string>(), "SIGKILL");
@@ -702,7 +638,7 @@ class InterruptionTest : public CommandLineTest {
 
 /// The rows without what is timed, in their order; every row has all its repetitions.
 std::vector<json> untimed_rows(const fs::path& run) {
-  std::vector<json> rows = lines_of(run / "runs.jsonl");
+  std::vector<json> rows = record::load_json_lines(run / "runs.jsonl").lines;
   for (json& row : rows) {
     EXPECT_EQ(row["time_ns"].size(), row["phases_ns"].size());
     row["time_ns"] = row["time_ns"].size();
@@ -710,6 +646,17 @@ std::vector<json> untimed_rows(const fs::path& run) {
     row["metrics"].erase("peak_memory_bytes");
   }
   return rows;
+}
+
+// What is said has the number of a closed stream.
+TEST_F(CommandLineTest, ClosedStandardStreamsGetIntoNoRecords) {
+  plan({300}, 2);
+  for (const std::string closed : {">&- 2>&-", "<&- 2>&-", "2>&-"}) {
+    shell("exec hullbench run small.json --out run --force " + closed);
+    EXPECT_EQ(read_lines("run/runs.jsonl").size(), 2U) << closed;
+    EXPECT_EQ(read_lines("run/repetitions.jsonl").size(), 4U) << closed;
+    for (const char* file : {"run/run.json", "run/runs.jsonl"}) expect_valid(file);
+  }
 }
 
 TEST_F(InterruptionTest, CtrlCKeepsFinishedRowsAndASecondStartGoesOn) {
@@ -752,26 +699,6 @@ TEST_F(InterruptionTest, KilledAtRandomMomentsTheRowsAreThoseOfAnUninterruptedRu
   EXPECT_EQ(untimed_rows(folder() / "run"), whole);
   EXPECT_FALSE(fs::exists(folder() / "run" / "scratch"));
   expect_no_repetition_twice(folder() / "run", kRepetitions);
-}
-
-TEST_F(InterruptionTest, WithoutOutTheUnfinishedRunIsFoundAndAFinishedOneIsNotTouched) {
-  const std::vector<std::string> words = {"run", the_plan()};
-  {
-    Program program(command(words), in_folder());
-    ASSERT_TRUE(wait_until([&] {
-      const std::string text = read_text(folder() / "results" / "latest" / "repetitions.jsonl");
-      return std::ranges::count(text, '\n') >= kRepetitions + 5;
-    }));
-    program.send_signal(SIGINT);
-    ASSERT_EQ(program.wait().code, 130);
-  }
-  const auto run_folders = [&] {
-    return std::distance(fs::directory_iterator(folder() / "results" / "runs"), fs::directory_iterator());
-  };
-  expect_end(hullbench(words), 0, "of 6 runs are finished and not measured again");
-  EXPECT_EQ(run_folders(), 1);
-  EXPECT_EQ(hullbench(words).code, 0);
-  EXPECT_EQ(run_folders(), 2);
 }
 
 }  // namespace

@@ -300,19 +300,6 @@ TEST(Markdown, SeveralDocumentsAreSetApartByOneBlankLine) {
   }
 }
 
-TEST(Markdown, TablesHaveABlankLineBeforeAndBehind) {
-  const std::string text = markdown({{"One", {small_table("a"), small_table("b", {"Remark."})}, {}, {}},
-                                     {"Two", {small_table("c")}, {"Note."}, {}}});
-  std::istringstream lines(text);
-  bool was_table = false;
-  std::string before;
-  for (std::string line; std::getline(lines, line); before = line) {
-    const bool is_table = line.starts_with("|");
-    EXPECT_TRUE(is_table == was_table || (is_table ? before : line).empty()) << text;
-    was_table = is_table;
-  }
-}
-
 class WrittenTables : public ::testing::Test {
  protected:
   fs::path folder() const { return folder_.path(); }

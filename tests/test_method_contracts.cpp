@@ -2,7 +2,6 @@
 // adapter.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <memory>
 #include <ostream>
 #include <regex>
@@ -98,10 +97,8 @@ const std::vector<Method>& methods() {
 class MethodContract : public ::testing::TestWithParam<Method> {
  protected:
   void SetUp() override {
-    const auto& registry = adapter_registry();
-    const auto found = std::ranges::find_if(
-        registry, [&](const AdapterEntry& entry) { return entry.name == identity_.name; });
-    ASSERT_NE(found, registry.end());
+    const AdapterEntry* found = find_adapter(identity_.name);
+    ASSERT_NE(found, nullptr);
     make_ = found->make;
     try {
       adapter_ = make_();
@@ -155,11 +152,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, MethodContract, ::testing::ValuesIn(methods())
 
 // Large enough that the one call leaves the interior out.
 TEST(PolylidarSteps, GiveTheCoresPolygonsAsOneCallDoes) {
-  const auto make = [](const char* name) {
-    const auto& registry = adapter_registry();
-    return std::ranges::find_if(registry, [&](const AdapterEntry& entry) { return entry.name == name; })
-        ->make();
-  };
+  const auto make = [](const char* name) { return find_adapter(name)->make(); };
   const std::vector<Point> points = square_points(40000, 8, true);
   EXPECT_NE(core_hull(points, {.detail = 2}), core_hull(points, {}));
   for (const auto& [parameters, options] :

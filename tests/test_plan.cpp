@@ -869,10 +869,6 @@ TEST(ParameterRule, PaperAlpha) {
   EXPECT_DOUBLE_EQ(plan::paper_alpha({points, 400.0, false}), 4.0);
   EXPECT_DOUBLE_EQ(plan::paper_alpha_squared({points, 400.0, false}), 16.0);
   EXPECT_EQ(plan::paper_alpha({{}, 400.0, false}), 0.0);
-}
-
-TEST(ParameterRule, PaperEdgeLength) {
-  const auto points = lattice(10, 10);
   EXPECT_DOUBLE_EQ(plan::paper_edge_length({points, 400.0, false}), 8.0);
 }
 

@@ -101,6 +101,12 @@ TEST(Reference, ItsTablesAreThoseOfItsRecords) {
   EXPECT_GT(files, 50U);
 }
 
+TEST(Reference, TheLeaguesRowsHaveTablesWithoutTimes) {
+  const auto documents = report::make_documents(report::suite_reports(kReference / "league"));
+  EXPECT_GT(documents.size(), 3U);
+  EXPECT_NE(table::to_json(documents).find("the records were kept without them"), std::string::npos);
+}
+
 // As 'hullbench readme results/reference README.md --check' says it, which also writes it anew.
 TEST(Reference, IsInTheReadme) {
   const std::string folder = "results/" + fs::read_symlink(kReference).string();

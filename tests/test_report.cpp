@@ -1,5 +1,6 @@
 // Reports: made from a run directory, summarised, and checked against the schemas.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -44,10 +45,6 @@ json find_by(const json& list, const char* key, const std::string& value) {
   }
   ADD_FAILURE() << "no entry with " << key << " = " << value;
   return json::object();
-}
-
-std::string message_of(const fs::path& directory) {
-  return complaint_of([&] { report::make_report(directory); });
 }
 
 TEST(Report, HoldsTheRunAndItsLines) {
@@ -177,17 +174,10 @@ TEST(Report, TornLastLineIsLeftOutAndSaid) {
   EXPECT_TRUE(record::validate_report(report).empty());
 }
 
-TEST(Report, WhatIsMissingOrMalformedIsNamed) {
+TEST(Report, OfAFolderWithoutARunIsRefused) {
   const TemporaryFolder folder;
-  const std::string run_file = (folder.path() / "run.json").string();
-  expect_says(message_of(folder.path()), run_file);
-  std::ofstream(run_file) << "{";
-  expect_says(message_of(folder.path()), run_file);
-  std::ofstream(run_file) << "{\"schema_version\": 99}";
-  expect_says(message_of(folder.path()), "schema version");
-  write_json_file(run_file, invented_run());
-  std::ofstream(folder.path() / "runs.jsonl") << "{}\n";
-  expect_says(message_of(folder.path()), "runs.jsonl");
+  expect_says(complaint_of([&] { report::make_report(folder.path()); }),
+              (folder.path() / "run.json").string());
 }
 
 TEST(Ratios, VariantsOfAShapeAreOneInAnInterval) {
@@ -414,7 +404,7 @@ TEST(Validate, ReportOnDiskAfterWriting) {
   write_json_file(folder.path() / "report.json", report);
   EXPECT_TRUE(record::validate_file(folder.path() / "report.json").empty());
   EXPECT_EQ(read_json(folder.path() / "report.json"), report);
-  EXPECT_FALSE(fs::exists(folder.path() / "report.json.new"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1) << "nothing else is left";
 }
 
 TEST(Embedded, FilesAreTheOnesInResults) {
@@ -433,10 +423,13 @@ TEST(Embedded, StatusesOfTheSchemaAreOurs) {
 
 TEST(Environment, TellsNothingPersonal) {
   const std::string text = record::collect_environment().dump();
-  for (const char* variable : {"HOME", "PWD", "HOSTNAME"}) {
-    const char* value = std::getenv(variable);
+  std::array<char, 256> host = {};
+  ASSERT_EQ(::gethostname(host.data(), host.size() - 1), 0);
+  for (const char* value :
+       {static_cast<const char*>(std::getenv("HOME")), static_cast<const char*>(std::getenv("PWD")),
+        static_cast<const char*>(host.data())}) {
     if (value == nullptr || std::string(value).size() < 2) continue;
-    EXPECT_EQ(text.find(value), std::string::npos) << variable;
+    EXPECT_EQ(text.find(value), std::string::npos) << value;
   }
 }
 

@@ -156,11 +156,7 @@ TEST(RuleFit, TheConstantsInTheCodeAreAboutTheBestOfASmallFit) {
 
 MultiPolygon hull_of(const std::string& method, const std::vector<Point>& points,
                      const Parameters& parameters) {
-  for (const AdapterEntry& entry : adapter_registry()) {
-    if (entry.name == method) return testing::hull_of(*entry.make(), points, parameters);
-  }
-  ADD_FAILURE() << "there is no method " << method;
-  return {};
+  return testing::hull_of(*find_adapter(method)->make(), points, parameters);
 }
 
 TEST(RuleFit, OneCircumradiusGivesPolylidarAndCgalTheSamePolygons) {

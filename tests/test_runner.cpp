@@ -321,15 +321,10 @@ TEST_F(RunnerTest, AGoodMethodGetsACompleteRow) {
     EXPECT_GT(row.metrics.at("peak_memory_bytes").get<std::int64_t>(), 100'000);
   }
   EXPECT_EQ(row.output_sha256.size(), 64U);
-}
-
-TEST_F(RunnerTest, TheFilesAreWhatTheSchemasSay) {
-  measure(plan_of({"polylidar", "crash", "invalid_polygon", "says_unsupported"}));
-  EXPECT_EQ(record::validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
-  const json report = report::make_report(folder_.path() / "run");
-  write_json_file(folder_.path() / "report.json", report);
-  EXPECT_EQ(record::validate_file(folder_.path() / "report.json"), std::vector<std::string>());
-  EXPECT_EQ(report["methods"].size(), 4U);
+  EXPECT_EQ(row.rounds, (std::vector<std::int64_t>{0, 1, 2}));
+  EXPECT_EQ(row.passes, (std::vector<std::int64_t>{1, 1, 1}));
+  EXPECT_TRUE(row.canary_ns.empty()) << "nobody looked";
+  EXPECT_FALSE(row.cold_time_ns);
 }
 
 TEST_F(RunnerTest, EveryMisbehaviourIsARowAndTheOthersAreMeasured) {
@@ -374,6 +369,11 @@ TEST_F(RunnerTest, EveryMisbehaviourIsARowAndTheOthersAreMeasured) {
     EXPECT_EQ(row.detail.empty(), status == record::Status::kOk) << method;
   }
   EXPECT_EQ(measured.at("crash").detail, "SIGSEGV");
+  expect_says(measured.at("changing_result").detail, "different results");
+  EXPECT_EQ(record::validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
+  const json report = report::make_report(folder_.path() / "run");
+  EXPECT_EQ(record::validate_report(report), std::vector<std::string>());
+  EXPECT_EQ(report["methods"].size(), expected.size());
 }
 
 TEST_F(RunnerTest, AnAcceptedStatusIsNoFailure) {
@@ -446,8 +446,6 @@ TEST_F(RunnerTest, AMethodsOwnRepetitionsTakeThePlaceOfThePlans) {
   plan::Plan plan = plan_of({"good", "polylidar"}, 2);
   plan.methods[0].repetitions = 1;
   plan.methods[1].repetitions = 3;
-  EXPECT_EQ(plan::plan_to_json(plan::parse_plan(plan::plan_to_json(plan).dump(), "test")),
-            plan::plan_to_json(plan));
   EXPECT_EQ(exit_code(measure(plan)), 0);
   EXPECT_EQ(rows().at("good").time_ns.size(), 1U);
   EXPECT_EQ(rows().at("polylidar").time_ns.size(), 3U);
@@ -455,7 +453,7 @@ TEST_F(RunnerTest, AMethodsOwnRepetitionsTakeThePlaceOfThePlans) {
   EXPECT_EQ(rows().at("polylidar").time_ns.size(), 3U);
 }
 
-TEST_F(RunnerTest, WithoutWarmUpTheFirstRepetitionIsScored) {
+TEST_F(RunnerTest, WithoutWarmUpOneRunIsUntimedAllTheSame) {
   plan::Plan plan = plan_of({"polylidar", "garbage_result", "invalid_polygon"});
   plan.warmup = 0;
   measure(plan);
@@ -517,11 +515,6 @@ TEST_F(RunnerTest, ARowSaysThatItsResultIsWorseThanTheConvexHull) {
   EXPECT_TRUE(rows().at("invalid_polygon").flags.empty()) << "it has no error";
 }
 
-TEST_F(RunnerTest, AResultThatChangesIsNotBelieved) {
-  measure(plan_of({"changing_result"}));
-  expect_says(rows().at("changing_result").detail, "different results");
-}
-
 TEST_F(RunnerTest, ACrashKeepsTheRepetitionsBeforeIt) {
   measure(plan_of({"crash_on_second"}));
   const record::RunRecord row = rows().at("crash_on_second");
@@ -529,12 +522,6 @@ TEST_F(RunnerTest, ACrashKeepsTheRepetitionsBeforeIt) {
   // The first run was the warm-up, the second one the first repetition.
   EXPECT_EQ(row.time_ns.size(), 0U);
   EXPECT_TRUE(row.metrics.at("valid").get<bool>());
-}
-
-TEST_F(RunnerTest, AParameterThatAMethodDoesNotHaveIsAConfigurationError) {
-  plan::Plan plan = plan_of({"good"});
-  plan.methods[0].parameters = {{"colour", 1.0}};
-  EXPECT_THROW(measure(plan), ConfigurationError);
 }
 
 TEST_F(RunnerTest, AParameterOutOfItsRangeIsAnErrorRow) {
@@ -716,13 +703,6 @@ TEST_F(RunnerTest, PassesShareTheRepetitionsAndCountTheRounds) {
   for (const auto& [method, row] : measured) EXPECT_EQ(row.time_ns.size(), row.phases_ns.size()) << method;
   EXPECT_EQ(record::validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
   EXPECT_EQ(seconds_left_, 0.0);
-}
-
-TEST_F(RunnerTest, OnePassIsAsItWasButSaysItsRounds) {
-  measure(plan_of({"polylidar"}, 2));
-  EXPECT_EQ(rows().at("polylidar").rounds, (std::vector<std::int64_t>{0, 1}));
-  EXPECT_EQ(rows().at("polylidar").passes, (std::vector<std::int64_t>{1, 1}));
-  EXPECT_TRUE(rows().at("polylidar").canary_ns.empty()) << "nobody looked";
 }
 
 TEST_F(RunnerTest, AResultIsScoredInTheFirstPassOnly) {
@@ -921,9 +901,9 @@ TEST_F(RunnerTest, WhereTimesHardlyMatterOnlyTheProcessIsWarmedUp) {
   EXPECT_EQ(exit_code(measure(plan, &compiling_worker_of)), 0);
   const auto measured = lines("runs.jsonl");
   ASSERT_EQ(measured.size(), 2U);
-  // 115 runs, the repetitions, and the untimed one behind them.
-  EXPECT_EQ(measured[0]["time_ns"], (json{800'116, 800'117}));
-  EXPECT_EQ(measured[1]["time_ns"], (json{800'119, 800'120}));
+  // 115 runs, the untimed one, and the repetitions.
+  EXPECT_EQ(measured[0]["time_ns"], (json{800'117, 800'118}));
+  EXPECT_EQ(measured[1]["time_ns"], (json{800'120, 800'121}));
 }
 
 TEST_F(RunnerTest, EveryPassWarmsItsOwnProcesses) {
@@ -932,12 +912,6 @@ TEST_F(RunnerTest, EveryPassWarmsItsOwnProcesses) {
   EXPECT_EQ(exit_code(measure(plan, &compiling_worker_of)), 0);
   EXPECT_EQ(rows().at("gets_faster").time_ns, (std::vector<std::int64_t>{800'117, 800'117}));
   EXPECT_EQ(rows().at("gets_faster").cold_time_ns, 8'000'001);
-}
-
-TEST_F(RunnerTest, AMethodThatDoesNotCompileHasNoColdTime) {
-  EXPECT_EQ(exit_code(measure(plan_of({"gets_faster"}, 1))), 0);
-  EXPECT_EQ(rows().at("gets_faster").time_ns, std::vector<std::int64_t>{4'000'002});
-  EXPECT_FALSE(rows().at("gets_faster").cold_time_ns);
 }
 
 TEST_F(RunnerTest, AWarmUpThatFailsIsTheRowsFailure) {

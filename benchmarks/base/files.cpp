@@ -29,30 +29,8 @@ std::string required_text(const fs::path& path) {
   throw ConfigurationError("Cannot read " + path.string() + ".");
 }
 
-void write_text_file(const fs::path& given, const std::string& text) {
-  const fs::path path = polylidar::tool::behind_links(given);
-  std::error_code unknown;
-  const bool is_device = fs::exists(path, unknown) && !fs::is_regular_file(path, unknown) &&
-                         !fs::is_directory(path, unknown);  // a folder is refused below
-  fs::path temporary = path;
-  if (!is_device) temporary += ".new";
-  {
-    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-    out << text << std::flush;
-    if (!out) {
-      std::error_code ignored;
-      if (!is_device) fs::remove(temporary, ignored);
-      throw std::runtime_error("cannot write " + path.string() +
-                               "; is its folder there and writable, and the disk not full?");
-    }
-  }
-  if (is_device) return;
-  std::error_code error;
-  fs::rename(temporary, path, error);
-  if (!error) return;
-  std::error_code ignored;
-  fs::remove(temporary, ignored);
-  throw std::runtime_error("cannot write " + path.string() + ": " + error.message());
+void write_text_file(const fs::path& path, const std::string& text) {
+  polylidar::tool::write_result(path.string(), text);
 }
 
 std::string dump_text(const json& content, int indent) {

@@ -17,10 +17,9 @@ std::optional<std::string> read_text_file(const fs::path& path);
 /// The same; throws ConfigurationError naming the file when there are none.
 std::string required_text(const fs::path& path);
 
-/// Writes a file whole or not at all: a temporary file beside it is renamed. A link stays, and what it names
-/// is written; what is no file, such as a device, is written to. Throws std::runtime_error naming the file
-/// when it cannot be written.
-void write_text_file(const fs::path& given, const std::string& text);
+/// Writes a file whole or not at all, as the tool writes its results (core/tool/program/result_output.hpp).
+/// Throws std::runtime_error naming the file when it cannot be written, and Interrupted when interrupted.
+void write_text_file(const fs::path& path, const std::string& text);
 
 /// Writes `content`, indented, as write_text_file does.
 void write_json_file(const fs::path& path, const json& content);

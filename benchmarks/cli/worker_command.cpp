@@ -1,6 +1,4 @@
 // `hullbench worker`
-#include <algorithm>
-
 #include "adapters/adapter.hpp"
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/cli/options.hpp"
@@ -10,12 +8,8 @@ namespace hullbench::cli {
 namespace {
 
 ExitCode work(const std::string& method) {
-  const auto& registry = adapter_registry();
-  const auto entry =
-      std::ranges::find_if(registry, [&](const AdapterEntry& candidate) { return candidate.name == method; });
-  if (entry == registry.end()) {
-    throw ConfigurationError("there is no method '" + method + "'; 'hullbench list' shows them");
-  }
+  const AdapterEntry* entry = find_adapter(method);
+  if (!entry) throw ConfigurationError("there is no method '" + method + "'; 'hullbench list' shows them");
   return worker::run_worker(*entry);
 }
 

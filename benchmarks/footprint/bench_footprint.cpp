@@ -116,18 +116,13 @@ void drop_from_memory(const std::string& path) {
 /// The result of a method of the harness with a parameter, if it has any.
 MultiPolygon result_of(const std::string& method, std::span<const Point> points,
                        const Parameters& parameters) {
-  struct NoSteps final : Steps {
-    void begin(std::string_view /*name*/) override {}
-  };
-  for (const AdapterEntry& entry : adapter_registry()) {
-    if (entry.name != method) continue;
-    const std::unique_ptr<Adapter> adapter = entry.make();
-    NoSteps steps;
-    adapter->load(points);
-    adapter->run(parameters, steps);
-    return adapter->extract(steps);
-  }
-  throw std::logic_error("there is no method " + method);
+  const AdapterEntry* entry = find_adapter(method);
+  if (!entry) throw std::logic_error("there is no method " + method);
+  const std::unique_ptr<Adapter> adapter = entry->make();
+  NoSteps steps;
+  adapter->load(points);
+  adapter->run(parameters, steps);
+  return adapter->extract(steps);
 }
 
 class Comparison {

@@ -179,18 +179,6 @@ std::string place_of_byte(const std::string& text, std::size_t byte) {
   return "line " + std::to_string(line) + ", column " + std::to_string(column);
 }
 
-json parse_json(const std::string& text, const std::string& source) {
-  try {
-    return parse_json_text(text);
-  } catch (const RepeatedKey& error) {
-    throw ConfigurationError(source + " " + error.what());
-  } catch (const json::parse_error& error) {
-    throw ConfigurationError(source + " is not JSON: mend it at " + place_of_byte(text, error.byte));
-  } catch (const json::out_of_range&) {
-    throw ConfigurationError(source + " has a number that is too large for a double; give a smaller one");
-  }
-}
-
 std::vector<std::string> plan_names(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code ignored;
@@ -229,6 +217,18 @@ json method_to_json(const PlanMethod& method) {
 }
 
 }  // namespace
+
+json parse_json(const std::string& text, const std::string& source) {
+  try {
+    return parse_json_text(text);
+  } catch (const RepeatedKey& error) {
+    throw ConfigurationError(source + " " + error.what());
+  } catch (const json::parse_error& error) {
+    throw ConfigurationError(source + " is not JSON: mend it at " + place_of_byte(text, error.byte));
+  } catch (const json::out_of_range&) {
+    throw ConfigurationError(source + " has a number that is too large for a double; give a smaller one");
+  }
+}
 
 Plan parse_plan(const std::string& text, const std::string& source) {
   const json document = parse_json(text, source);

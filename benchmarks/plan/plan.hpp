@@ -85,9 +85,9 @@ struct Plan {
   /// How often the plan is gone through from the first case to the last, so that each method's repetitions
   /// are spread over the whole time.
   int passes = 1;
-  /// Untimed runs before them; with 0 there is one after them, and methods that compile while they run are
-  /// warmed up once a process instead of for each row. The first run of all is scored, and every
-  /// other one must give its result.
+  /// Untimed runs before them, in each pass; the first one has one at least. With 0, methods that compile
+  /// while they run are warmed up once a process instead of for each row. The first run of all is scored, and
+  /// every other one must give its result.
   int warmup = 1;
   double timeout_s = 120;             ///< wall-clock seconds for one request to a worker
   std::int64_t mem_limit_mib = 4096;  ///< address space of a worker, in MiB
@@ -115,6 +115,9 @@ struct PlannedRun {
 
 /// The plan in `text`. `source` is how messages call it. Throws ConfigurationError.
 Plan parse_plan(const std::string& text, const std::string& source);
+
+/// The JSON in `text`. Throws ConfigurationError, with the place of the fault, when it is none.
+json parse_json(const std::string& text, const std::string& source);
 
 /// The plan that `name_or_path` names: NAME.json in `folder`, or a file (anything with a slash or the ending
 /// .json). Throws ConfigurationError.

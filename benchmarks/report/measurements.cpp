@@ -119,6 +119,9 @@ Measurements::Measurements(const json& report)
     run.time_ns.clear();
     run.phases_ns.clear();
   }
+  const auto is_timed = [](const record::RunRecord& run) { return !run.time_ns.empty(); };
+  if (has_times() && std::ranges::any_of(runs_, is_measured) && std::ranges::none_of(runs_, is_timed))
+    why_no_times_ = "Times are not shown: the records were kept without them.";
   std::map<std::string, std::size_t> first_seen;  // by data set
   for (std::size_t position = 0; position < runs_.size(); ++position) {
     const record::RunRecord& run = runs_[position];

@@ -7,7 +7,6 @@
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/record/validate.hpp"
 #include "benchmarks/worker/protocol.hpp"
-#include "datasets/json_file.hpp"
 #include "datasets/sha256.hpp"
 
 namespace hullbench::run {
@@ -64,16 +63,6 @@ std::string hash_of(const std::string& text, const json& command, const fs::path
   return sha256_hex(all);
 }
 
-json parsed(const std::string& text, const std::string& source) {
-  try {
-    return parse_json_text(text);
-  } catch (const RepeatedKey& error) {
-    throw ConfigurationError(source + " " + error.what());
-  } catch (const json::exception&) {
-    throw ConfigurationError(source + " is not JSON; mend or remove it");
-  }
-}
-
 }  // namespace
 
 bool is_manifest(const fs::path& file) {
@@ -85,7 +74,7 @@ Manifest load_manifest(const fs::path& file) {
   const std::string source = "the manifest " + file.string();
   const std::optional<std::string> text = read_text_file(file);
   if (!text) throw ConfigurationError("cannot read the manifest " + file.string());
-  const json document = parsed(*text, source);
+  const json document = plan::parse_json(*text, source);
   if (const auto faults = record::validate_manifest(document); !faults.empty()) {
     throw ConfigurationError(source + " has a fault; mend or remove it: " + faults.front());
   }

@@ -39,10 +39,11 @@ void remove_run_files(const fs::path& folder) {
 
 /// Whether nothing is in the folder but what a start leaves that was killed before it wrote run.json.
 bool holds_no_run_yet(const fs::path& folder) {
+  const bool has_rows = fs::exists(folder / record::kRowsFile);  // made before the scratch folder
   return std::all_of(
-      fs::directory_iterator(folder), fs::directory_iterator(), [](const fs::directory_entry& entry) {
+      fs::directory_iterator(folder), fs::directory_iterator(), [=](const fs::directory_entry& entry) {
         const fs::path name = entry.path().filename();
-        return name == kScratchFolder ||
+        return (name == kScratchFolder && has_rows) ||
                ((name == record::kRowsFile || name == kRepetitionsFile || name == record::kPicturesFile) &&
                 entry.file_size() == 0);
       });

@@ -46,6 +46,12 @@ struct CaseWork {
 /// machine stops.
 constexpr std::int64_t kBatchWork = 1'000'000;
 
+/// Before the timed ones of a pass; the first has one at least, so that no method is timed cold and every
+/// result is given twice.
+int untimed_runs(const plan::Plan& plan, int pass) {
+  return std::max(plan.warmup, pass == 1 ? 1 : 0);
+}
+
 /// How many of a method's repetitions fall in `pass`.
 int share_of(const plan::Plan& plan, const plan::PlanMethod& method, int pass) {
   return plan::share_of_pass(plan::repetitions_of(plan, method), plan.passes, pass);
@@ -210,7 +216,8 @@ class Runner {
 
   /// The cases from the one at `next` in cases_ on that make a batch.
   std::vector<CaseWork> gather_batch(std::size_t next) const {
-    const int runs_each = plan_.warmup + plan::share_of_pass(plan_.repetitions, plan_.passes, pass_);
+    const int runs_each =
+        untimed_runs(plan_, pass_) + plan::share_of_pass(plan_.repetitions, plan_.passes, pass_);
     std::vector<CaseWork> batch;
     std::int64_t work = 0;
     for (; next < cases_.size(); ++next) {
@@ -271,11 +278,7 @@ class Runner {
     for (int turn = 0; turn < rounds_of(one.entries, pass_); ++turn)
       run_round(one.entries, turn, first_round + turn);
     const bool has_parts = plan_.draws > 0 && one.drawn->set().ground_truth.empty();
-    for (Entry& entry : one.entries) {
-      // Without a warm-up, one untimed run after the timed ones, which must give the same result.
-      if (plan_.warmup == 0 && pass_ == 1 && !entry.run.over) attempt_run(entry, worker::Watch::kMemory);
-      entry.run.over = entry.run.over || !has_parts;
-    }
+    for (Entry& entry : one.entries) entry.run.over = entry.run.over || !has_parts;
     if (!has_parts) return;
     run_on_parts(one);
     for (Entry& entry : one.entries) entry.run.over = true;
@@ -355,7 +358,8 @@ class Runner {
     MethodRun& run = entry.run;
     const bool is_scored = !run.record.output_sha256.empty() && !entry.repetitions.empty();
     const bool is_long = is_scored && entry.repetitions.back().time_ns >= kLongRun.count();
-    const int untimed = is_long ? 0 : std::max(plan_.warmup, entry.repetitions.empty() ? 0 : 1);
+    const int least = entry.repetitions.empty() ? 0 : 1;
+    const int untimed = is_long ? 0 : std::max(untimed_runs(plan_, pass_), least);
     for (int count = 0; count < untimed && !run.over; ++count) attempt_run(entry, worker::Watch::kMemory);
     const auto differs = [&](const Repetition& earlier) {
       return earlier.output_sha256 != run.record.output_sha256;
@@ -545,7 +549,7 @@ std::vector<ProgressRun> progress_runs(const plan::Plan& plan, const std::vector
     const plan::PlanMethod& method = plan.methods[run.method_index];
     const int share = share_of(plan, method, pass);
     result.push_back({run.name, method.method, estimated_points(plan.expanded_cases[run.case_index]),
-                      share == 0 ? 0 : plan.warmup + share});
+                      share == 0 ? 0 : untimed_runs(plan, pass) + share});
   }
   return result;
 }

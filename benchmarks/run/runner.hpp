@@ -57,8 +57,8 @@ struct RunResult {
 /// After every round the machine's canaries are looked at. A round that they do not speak well of is measured
 /// again (MachineWatch::wants_again); the last time counts, and the row is flagged. The repetitions of a
 /// round are kept together, when it is over. A method that compiles while it runs (Method::jit) is warmed up
-/// when its worker is new and, more briefly, for every other row. The row of the case that it was new for
-/// says how long the first call took.
+/// when its worker is new and, more briefly, for every other row, unless the plan's warmup is 0. The row of
+/// the case that it was new for says how long the first call took.
 ///
 /// Points that cannot be made, and parameters that cannot be chosen from them, are rows with the status
 /// error.

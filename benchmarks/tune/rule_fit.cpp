@@ -1,6 +1,5 @@
 #include "benchmarks/tune/rule_fit.hpp"
 
-#include <algorithm>
 #include <exception>
 #include <memory>
 #include <set>
@@ -20,17 +19,9 @@
 namespace hullbench::tune {
 namespace {
 
-class NoSteps final : public Steps {
- public:
-  void begin(std::string_view) override {}
-};
-
 std::unique_ptr<Adapter> make_method(const std::string& name) {
-  const auto& registry = adapter_registry();
-  const auto entry =
-      std::ranges::find_if(registry, [&](const AdapterEntry& candidate) { return candidate.name == name; });
-  if (entry == registry.end())
-    throw std::runtime_error("this build has no method '" + name + "' to fit a rule with");
+  const AdapterEntry* entry = find_adapter(name);
+  if (!entry) throw std::runtime_error("this build has no method '" + name + "' to fit a rule with");
   return entry->make();
 }
 

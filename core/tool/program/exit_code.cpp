@@ -1,5 +1,6 @@
 #include "tool/program/exit_code.hpp"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <unistd.h>
 
@@ -18,6 +19,14 @@ bool has_nobody_who_reads() {
   return ::poll(&output, 1, 0) > 0 && (output.revents & POLLERR) != 0;
 }
 
+/// Takes the place of standard streams that are closed, in which reading and writing fail as before: else the
+/// next file that is opened has its number, and gets whatever is said.
+void hold_standard_streams() {
+  int held = 0;
+  while (held >= 0 && held <= STDERR_FILENO) held = ::open("/", O_PATH);
+  if (held > STDERR_FILENO) ::close(held);
+}
+
 }  // namespace
 
 ExitCode exit_code_of(const std::string& program, std::ostream& err, const std::function<ExitCode()>& work) {
@@ -26,6 +35,7 @@ ExitCode exit_code_of(const std::string& program, std::ostream& err, const std::
     return code;
   };
   try {
+    hold_standard_streams();
     const ExitCode code = work();
     const bool is_written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
     if (is_written || has_nobody_who_reads()) return code;
