@@ -695,6 +695,10 @@ TEST_F(HullCommandTest, WhatGzipCompressedIsUnpacked) {
   const std::string once = file("once.csv", packed);
   ASSERT_EQ(run_program({"gzip", "-k", once}).code, 0);
   expect_refusal(hull({once + ".gz"}), 2, "it is packed by gzip twice");
+  // No row begins in the bytes that are looked at for the format.
+  const std::string zeros = file("zeros", std::string(2'000'000, '\0'));
+  ASSERT_EQ(run_program({"gzip", "-k", zeros}).code, 0);
+  expect_refusal(hull({zeros + ".gz"}), 2, "zeros.gz, line 1: the line is longer than");
   expect_refusal(hull({file("cut.csv.gz", packed.substr(0, packed.size() / 2))}), 2,
                  "its gzip stream is cut short");
   std::string damaged = packed;

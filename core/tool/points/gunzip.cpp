@@ -40,6 +40,7 @@ Gunzip::~Gunzip() {
 }
 
 std::size_t Gunzip::read(char* to, std::size_t size) {
+  if (size == 0) return 0;
   z_stream& stream = state_->stream;
   const auto room = static_cast<uInt>(std::min<std::size_t>(size, std::numeric_limits<int>::max()));
   stream.next_out = reinterpret_cast<Bytef*>(to);

@@ -31,8 +31,8 @@ class Gunzip {
   Gunzip(const Gunzip&) = delete;
   Gunzip& operator=(const Gunzip&) = delete;
 
-  /// Up to `size` unpacked bytes; 0 at the end. Throws GunzipError when the bytes are not what gzip
-  /// writes, or are cut short.
+  /// Up to `size` unpacked bytes; 0 at the end, and where no more are asked for. Throws GunzipError when the
+  /// bytes are not what gzip writes, or are cut short.
   std::size_t read(char* to, std::size_t size);
 
  private:
