@@ -446,7 +446,7 @@ TEST_F(FootprintUnionTest, OneLimitForAllWhereAllPointsDoNotFitIntoMemory) {
   files.push_back(few);
   const json whole = feature_of(succeeded(unite(files, {"--crs", "25832"})))["properties"];
   EXPECT_TRUE(whole.contains("most_size"));
-  const Outcome outcome = succeeded(unite(files, {"--crs", "25832", "--memory", "2"}));
+  const Outcome outcome = succeeded(unite(files, {"--crs", "25832", "--memory", "15"}));
   expect_says(outcome.err, "each file alone would get");
   const json properties = feature_of(outcome)["properties"];
   EXPECT_LT(properties["alpha"].get<double>(), 60) << "the few points do not decide";
@@ -518,7 +518,10 @@ TEST_F(FootprintUnionTest, NothingAndWrongUsage) {
   expect_refusal(unite(files, {"--one"}), 2, "--union does not go with --one, --cover and --min-triangles");
   expect_refusal(unite({files[0], file("degrees.csv", "lon,lat\n1,2\n1,3\n2,2\n")}), 2,
                  "the files have different coordinate systems");
-  expect_end(unite(tiles(10), {"--alpha", "1e-9"}), 2, "the union: the limit is too small");
+  const std::vector<std::string> many = tiles(10);
+  expect_end(unite(many, {"--alpha", "1e-9"}), 2, "the union: the limit is too small");
+  succeeded(unite(many, {"--alpha", "0.2"}));
+  expect_end(unite(many, {"--alpha", "0.2", "--memory", "1"}), 2, "the union: the limit is too small");
   expect_refusal(unite({"-"}), 2, "--union does not go with standard input, which can be read once only");
   expect_refusal(unite(files, {"-o", "/nowhere/union.geojson"}), 1, "cannot write /nowhere/union.geojson");
 }

@@ -787,6 +787,19 @@ TEST_F(HullCommandTest, AStreamSaysWhatItCannotDo) {
   }
 }
 
+TEST_F(HullCommandTest, TheMapOfAStreamTakesNoMoreThanHalfOfTheMemoryThatIsGiven) {
+  // Cells of 0.7 mm in a square of 10 m are some 28 MB.
+  const std::vector<std::string> arguments = {file("many.npy", npy_of<double>(many_points(), "<f8")),
+                                              "--alpha", "0.004", "--stream"};
+  for (const std::vector<std::string>& part : std::vector<std::vector<std::string>>{{}, {"--shard", "1/2"}}) {
+    const std::vector<std::string> in_part = joined(arguments, part);
+    succeeded(hull(in_part));
+    succeeded(hull(joined(in_part, {"--memory", "100"})));
+    expect_refusal(hull(joined(in_part, {"--memory", "1"})), 2,
+                   "the limit is too small for the distances between the points");
+  }
+}
+
 TEST_F(HullCommandTest, AHeaderThatPromisesMoreThanTheFileHoldsMakesNoMap) {
   LasFile las;
   las.points = {{.x = 0, .y = 0}, {.x = 1000, .y = 0}, {.x = 0, .y = 1000}};

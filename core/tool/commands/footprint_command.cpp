@@ -500,7 +500,7 @@ class UnionRun {
 
   StreamedHull stream() {
     StreamOptions options;
-    options.most_map_bytes = std::max(options.most_map_bytes, most_map_bytes(command_.shape));
+    options.most_map_bytes = most_map_bytes(command_.shape);
     options.progress = [&](const StreamProgress& progress) {
       throw_if_interrupted();
       if (status_.is_due()) status_.show(passing(progress, all_.points));

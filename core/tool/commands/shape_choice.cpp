@@ -202,7 +202,8 @@ std::uint64_t memory_for_points(const ShapeChoice& choice) {
 }
 
 double most_map_bytes(const ShapeChoice& choice) {
-  return static_cast<double>(memory_for_points(choice)) / 2;
+  const double half = static_cast<double>(memory_for_points(choice)) / 2;
+  return choice.memory > 0 ? half : std::max(half, StreamOptions().most_map_bytes);
 }
 
 std::uint64_t most_points_in_memory(const ShapeChoice& choice) {

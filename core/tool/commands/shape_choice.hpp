@@ -34,8 +34,9 @@ unsigned thread_count(const ShapeChoice& choice);
 
 /// The most that points may take, in bytes: --memory, or half of what is free.
 std::uint64_t memory_for_points(const ShapeChoice& choice);
-/// For StreamOptions::most_map_bytes: half of that, the rest for what is near the outline. Not for shards,
-/// whose grids must be the same on all machines.
+/// For StreamOptions::most_map_bytes: half of that, the rest for what is near the outline. Without --memory
+/// it is at least as much as StreamOptions has, which is what shards get then: their grids must be the same
+/// on all machines.
 double most_map_bytes(const ShapeChoice& choice);
 /// How many may be in memory for a triangulation of all.
 std::uint64_t most_points_in_memory(const ShapeChoice& choice);

@@ -83,7 +83,7 @@ class StreamRun {
     output.check_against(command_.inputs);
     // The parts of one file, or several files, are read at the same time.
     StreamOptions options = stream_options();
-    options.most_map_bytes = std::max(options.most_map_bytes, most_map_bytes(command_.shape));
+    options.most_map_bytes = most_map_bytes(command_.shape);
     options.expected = expected();
     const StreamedHull hull = concave_hull_of_stream(
         sources(command_.inputs.size() == 1 ? parts_for(core_.threads) : 1), core_, options);
@@ -115,7 +115,9 @@ class StreamRun {
                                ": --shard writes a part for 'polylidar merge', neither points nor polygons; "
                                "give it another ending, or none, as in part-1");
     }
-    const StreamShard part = part_of_stream(sources(1), core_, *shard, stream_options());
+    StreamOptions options = stream_options();
+    if (shape.memory > 0) options.most_map_bytes = most_map_bytes(shape);
+    const StreamShard part = part_of_stream(sources(1), core_, *shard, options);
     status_.clear();
     status_.say(surroundings_.program + ": shard " + std::to_string(shard->number) + " of " +
                 std::to_string(shard->count) + ": " + std::to_string(part.points.size()) + " of " +
