@@ -25,6 +25,7 @@
 #include "tests/temporary_folder.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/points/point_file.hpp"
+#include "tool/program/result_output.hpp"
 
 namespace hullbench::testing {
 namespace {
@@ -283,6 +284,23 @@ TEST_F(HullCommandTest, AReplacedFileKeepsItsMode) {
   options.obey_permissions = true;
   expect_refusal(run_program({POLYLIDAR, "hull", points_file(), "--out", out}, options), 1,
                  "cannot write " + out + ": Permission denied");
+}
+
+TEST_F(HullCommandTest, AResultWhoseModeCannotBeSetLeavesNothing) {
+  namespace tool = polylidar::tool;
+  // A file that can be written and has a mode of its own, as all have on a file system without modes.
+  const fs::path without_modes = "/proc/self/comm";
+  const fs::path target = file("result.geojson", "old");
+  const fs::path unfinished = tool::unfinished_path(target);
+  fs::create_symlink(without_modes, unfinished);
+  fs::permissions(target, fs::perms::owner_read | fs::perms::owner_write);
+  expect_complaint([&] { const tool::ResultOutput output(target); }, "cannot write " + target.string());
+  EXPECT_FALSE(fs::is_symlink(unfinished));
+  EXPECT_EQ(read_text(target), "old");
+  // Nothing has to be set if it is the right one.
+  fs::create_symlink(without_modes, unfinished);
+  fs::permissions(target, fs::status(without_modes).permissions());
+  EXPECT_NO_THROW(const tool::ResultOutput output(target));
 }
 
 TEST_F(HullCommandTest, OutMayBeAPipeOrADescriptor) {

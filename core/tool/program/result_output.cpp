@@ -72,6 +72,21 @@ void check_output_place(const std::string& path) {
   if (replaces && ::access(folder.c_str(), W_OK) != 0) fail(path, errno);
 }
 
+void keep_owner_and_mode(int file, const fs::path& replaced, const std::string& name) {
+  struct ::stat old = {};
+  struct ::stat made = {};
+  if (::stat(replaced.c_str(), &old) != 0 || !S_ISREG(old.st_mode)) return;
+  if (::fstat(file, &made) != 0) fail(name, errno);
+  // A file system without owners and modes has the same for all files, and refuses to set them.
+  const bool has_owner = made.st_uid == old.st_uid && made.st_gid == old.st_gid;
+  const bool is_owner_kept = has_owner || ::fchown(file, old.st_uid, old.st_gid) == 0;
+  constexpr ::mode_t kOfGroup = S_IRWXG;
+  constexpr ::mode_t kOfAll = S_IRWXU | S_IRWXG | S_IRWXO;
+  // The group of this user is another one.
+  const ::mode_t mode = old.st_mode & (is_owner_kept ? kOfAll : kOfAll & ~kOfGroup);
+  if ((made.st_mode & kOfAll) != mode && ::fchmod(file, mode) != 0) fail(name, errno);
+}
+
 ResultOutput::ResultOutput(const std::string& path)
     : name_(is_standard_output(path) ? "standard output" : path) {
   if (is_standard_output(path)) {
@@ -86,25 +101,23 @@ ResultOutput::ResultOutput(const std::string& path)
   }
   const std::string unfinished = unfinished_path(target).string();
   file_ = open_file(unfinished, O_CREAT | O_TRUNC, name_);
-  keep_owner_and_mode(target);
   target_ = target;
   unfinished_ = unfinished;
-}
-
-/// Who may read the file that is replaced may read the new one, and nobody else, as far as the system lets
-/// this user set it.
-void ResultOutput::keep_owner_and_mode(const std::string& replaced) const {
-  struct ::stat old = {};
-  if (::stat(replaced.c_str(), &old) != 0) return;
-  const bool is_owner_kept = ::fchown(file_, old.st_uid, old.st_gid) == 0;
-  constexpr ::mode_t kOfGroup = S_IRWXG;
-  const ::mode_t mode = old.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO);
-  // The group of this user is another one.
-  if (::fchmod(file_, is_owner_kept ? mode : mode & ~kOfGroup) != 0) fail(name_, errno);
+  try {
+    keep_owner_and_mode(file_, target, name_);
+  } catch (...) {
+    discard();
+    throw;
+  }
 }
 
 ResultOutput::~ResultOutput() {
+  discard();
+}
+
+void ResultOutput::discard() {
   if (file_ != -1 && file_ != STDOUT_FILENO) ::close(file_);
+  file_ = -1;
   std::error_code ignored;
   if (!unfinished_.empty()) fs::remove(unfinished_, ignored);
 }

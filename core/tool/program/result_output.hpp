@@ -17,6 +17,11 @@ std::filesystem::path unfinished_path(const std::filesystem::path& target);
 /// the result is there. Nothing to check for standard output: an empty path, or -.
 void check_output_place(const std::string& path);
 
+/// Gives an open file the mode and, where that is allowed, the owner of the file that it takes the place of,
+/// if there is one: who may read that one may read the new one, and nobody else, as far as the system lets
+/// this user set it. Throws std::runtime_error, with the `name` of the result, when the system refuses.
+void keep_owner_and_mode(int file, const std::filesystem::path& replaced, const std::string& name);
+
 /// A result that is written piece by piece: to standard output (an empty path, or -), or into a file of
 /// another name that finish() renames to `path`, so that nobody ever sees half a result. It gets the mode
 /// and, where that is allowed, the owner of the file that it replaces. What is there and is no file (a
@@ -34,7 +39,8 @@ class ResultOutput {
   void finish();
 
  private:
-  void keep_owner_and_mode(const std::string& replaced) const;
+  /// Closes the file, and removes it if it is unfinished.
+  void discard();
 
   std::string name_;        ///< for messages
   std::string target_;      ///< the file that the result becomes; empty: what is written to is there already
