@@ -254,6 +254,20 @@ TEST_F(VectorFormatsTest, OutliersBesidePolygonsNeedAFormatThatHoldsBoth) {
   EXPECT_EQ(layer_of(path("out.gpkg")).features.size(), 2U);
 }
 
+TEST_F(VectorFormatsTest, AReplacedFileKeepsItsMode) {
+  constexpr fs::perms kPrivate = fs::perms::owner_read | fs::perms::owner_write;
+  for (const std::string ending : {"gpkg", "fgb", "shp"}) {
+    const std::string out = path("out." + ending);
+    EXPECT_EQ(result({"hull", csv(), "-o", out}), "");
+    fs::permissions(out, kPrivate);
+    if (ending == "shp") fs::permissions(path("out.dbf"), kPrivate | fs::perms::group_read);
+    EXPECT_EQ(result({"hull", csv(), "--crs", "EPSG:25832", "-o", out}), "");
+    EXPECT_EQ(fs::status(out).permissions(), kPrivate) << ending;
+  }
+  EXPECT_EQ(fs::status(path("out.dbf")).permissions(), kPrivate | fs::perms::group_read);
+  EXPECT_EQ(fs::status(path("out.prj")).permissions(), kPrivate) << "new beside the private one";
+}
+
 TEST_F(VectorFormatsTest, NothingOfTheFileBeforeIsLeft) {
   const std::string out = path("out.shp");
   EXPECT_EQ(result({"hull", csv(), "--crs", "EPSG:25832", "-o", out}), "");

@@ -3,6 +3,7 @@
 #include <cpl_conv.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
+#include <fcntl.h>
 #include <gdal.h>
 #include <gdal_utils.h>
 #include <ogr_api.h>
@@ -265,6 +266,9 @@ class TemporaryFolder {
   explicit TemporaryFolder(fs::path path) : path_(std::move(path)) {
     fs::remove_all(path_);
     fs::create_directory(path_);
+    // What replaces a private file is never for others. Some file systems have no modes.
+    std::error_code ignored;
+    fs::permissions(path_, fs::perms::owner_all, ignored);
   }
   ~TemporaryFolder() {
     std::error_code ignored;
@@ -575,7 +579,24 @@ class GdalFormats final : public VectorFormats {
     for (const fs::path& old : replaced) {
       if (std::find(files.begin(), files.end(), old) == files.end()) fs::remove(old);
     }
-    for (const fs::path& file : files) fs::rename(folder / file.filename(), file);
+    for (const fs::path& file : files) {
+      const fs::path made = folder / file.filename();
+      // What is new, such as a .cpg, is for nobody else either.
+      keep_owner_and_mode(made, fs::exists(file) ? file : target, output.path);
+      fs::rename(made, file);
+    }
+  }
+
+  static void keep_owner_and_mode(const fs::path& made, const fs::path& replaced, const std::string& name) {
+    const int file = ::open(made.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) throw std::runtime_error("cannot write " + name);
+    try {
+      tool::keep_owner_and_mode(file, replaced, name);
+    } catch (...) {
+      ::close(file);
+      throw;
+    }
+    ::close(file);
   }
 };
 
