@@ -556,20 +556,28 @@ TEST_F(HullCommandTest, OneFeatureAGroup) {
 }
 
 TEST_F(HullCommandTest, LabelsThatAreNumbersAreNumbers) {
-  const auto labels = [&](const std::string& text) {
+  const auto labels_of = [](const std::string& path, const std::string& by) {
     json found = json::array();
-    const json collection = json::parse(hull({file("n.csv", text), "--by", "3"}).out);
+    const json collection = json::parse(hull({path, "--by", by}).out);
     for (const json& feature : collection["features"]) {
       found.push_back(feature["properties"]["label"]);
     }
     return found;
   };
+  const auto labels = [&](const std::string& text) { return labels_of(file("n.csv", text), "3"); };
   EXPECT_EQ(labels("1,2,10\n1,2,9\n1,2,-0.5\n"), (json{-0.5, 9, 10}));
   EXPECT_EQ(labels("1,2,200000\n1,2,0.0001\n"), (json{0.0001, 200000}));
   EXPECT_EQ(labels("1,2,10\n1,2,007\n"), (json{"007", "10"}));
   EXPECT_EQ(labels("1,2,10\n1,2,1e5\n"), (json{"10", "1e5"}));
   EXPECT_EQ(labels("1,2,10\n1,2,nan\n1,2,9\n"), (json{"9", "10", "nan"}));
   EXPECT_EQ(labels("x,y,z\n"), json::array());
+  const auto feature = [](const std::string& height) {
+    return R"({"type":"Feature","properties":{"height":)" + height +
+           R"(},"geometry":{"type":"Point","coordinates":[1,2]}})";
+  };
+  const std::string real = file("real.geojson", R"({"type":"FeatureCollection","features":[)" +
+                                                    feature("100000.0") + "," + feature("1e-7") + "]}");
+  EXPECT_EQ(labels_of(real, "height"), (json{1e-7, 100000}));
   expect_refusal(hull({file("odd.csv", "1,2,\xFF\n"), "--by", "3"}), 2,
                  "--by is not UTF-8; convert the file");
 }

@@ -76,7 +76,7 @@ class NewData {
     return layer;
   }
 
-  /// Points in turn of kind a and b, number 1 and 2 and value 0.1 and 0.25; the seventh has no kind.
+  /// Points in turn of kind a and b, number 1 and 2 and value 0.1 and 100000; the seventh has no kind.
   void add_points(OGRLayerH layer, const Points& points) const {
     GDALDatasetStartTransaction(data_, 0);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -86,7 +86,7 @@ class NewData {
       OGRFeatureH feature = OGR_F_Create(OGR_L_GetLayerDefn(layer));
       if (i != 6) OGR_F_SetFieldString(feature, 0, is_odd ? "b" : "a");
       OGR_F_SetFieldInteger(feature, 1, is_odd ? 2 : 1);
-      OGR_F_SetFieldDouble(feature, 2, is_odd ? 0.25 : 0.1);
+      OGR_F_SetFieldDouble(feature, 2, is_odd ? 100000 : 0.1);
       OGR_F_SetGeometryDirectly(feature, geometry);
       EXPECT_EQ(OGR_L_CreateFeature(layer, feature), OGRERR_NONE);
       OGR_F_Destroy(feature);
@@ -444,6 +444,7 @@ TEST_F(VectorFormatsTest, GroupsByAColumn) {
   EXPECT_EQ(numbers["features"][1]["properties"]["label"], 2);
   const json values = json::parse(result({"hull", gpkg, "--by", "value"}));
   EXPECT_EQ(values["features"][0]["properties"]["label"], 0.1);
+  EXPECT_EQ(values["features"][1]["properties"]["label"], 100000);
   expect_refusal(run({"hull", gpkg, "--by", "species"}), 2,
                  "--by 'species' names no column; the columns are 'kind', 'number', 'value'");
 

@@ -1,7 +1,6 @@
 // `polylidar hull FILE`: from anybody's points to polygons.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -13,6 +12,7 @@
 #include "tool/commands/shape_choice.hpp"
 #include "tool/commands/shape_output.hpp"
 #include "tool/commands/streamed_hull.hpp"
+#include "tool/points/numbers.hpp"
 #include "tool/program/configuration_error.hpp"
 #include "tool/program/interrupt.hpp"
 #include "tool/program/status_line.hpp"
@@ -204,15 +204,12 @@ class HullRun {
 
   /// Whether all labels are numbers as JSON writes them: 7, 200000 and -0.5, but not 007 or 1e5.
   static bool are_numbers(const std::vector<std::string>& labels) {
-    constexpr auto kPlain = std::chars_format::fixed;
     return std::all_of(labels.begin(), labels.end(), [](const std::string& label) {
       double value = 0;
       const char* const last = label.data() + label.size();
-      const auto [end, error] = std::from_chars(label.data(), last, value, kPlain);
-      if (error != std::errc() || end != last || !std::isfinite(value)) return false;
-      std::array<char, 512> digits{};
-      const char* const plain = std::to_chars(digits.begin(), digits.end(), value, kPlain).ptr;
-      return label == std::string_view(digits.data(), static_cast<std::size_t>(plain - digits.data()));
+      const auto [end, error] = std::from_chars(label.data(), last, value, std::chars_format::fixed);
+      const bool is_number = error == std::errc() && end == last && std::isfinite(value);
+      return is_number && label == point_files::plain_decimal(value);
     });
   }
 

@@ -31,7 +31,6 @@
 #include "tool/program/interrupt.hpp"
 #include "tool/program/letter_case.hpp"
 #include "tool/program/result_output.hpp"
-#include "tool/shapes/polygon_writers.hpp"
 
 namespace polylidar::tool {
 namespace {
@@ -156,7 +155,8 @@ class LayerReader {
   std::uint32_t group_of(OGRFeatureH feature) {
     if (OGR_F_IsFieldSetAndNotNull(feature, *field_) == 0) return labels_.index_of("");
     // With all digits, as text has them.
-    if (is_real_) return labels_.index_of(shortest(OGR_F_GetFieldAsDouble(feature, *field_)));
+    if (is_real_)
+      return labels_.index_of(point_files::plain_decimal(OGR_F_GetFieldAsDouble(feature, *field_)));
     return labels_.index_of(OGR_F_GetFieldAsString(feature, *field_));
   }
 

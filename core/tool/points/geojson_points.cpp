@@ -9,7 +9,6 @@
 #include "tool/points/labels.hpp"
 #include "tool/points/numbers.hpp"
 #include "tool/points/readers.hpp"
-#include "tool/shapes/polygon_writers.hpp"
 
 namespace polylidar::tool::point_files {
 namespace {
@@ -107,7 +106,7 @@ class PointHandler : public nlohmann::json_sax<json> {
     return number(static_cast<double>(value));
   }
   bool number_float(number_float_t value, const string_t&) override {
-    if (is_label_) return take_label(shortest(value));
+    if (is_label_) return take_label(plain_decimal(value));
     return number(value);
   }
   bool binary(binary_t&) override { return plain_value(); }

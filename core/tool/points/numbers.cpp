@@ -1,6 +1,7 @@
 #include "tool/points/numbers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -81,6 +82,13 @@ std::string_view take_word(std::string_view& text) {
 std::string_view trimmed(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
   return text.substr(0, text.find_last_not_of(kBlanks) + 1);
+}
+
+std::string plain_decimal(double value) {
+  std::array<char, 512> digits{};  // the least double has some 340 of them
+  const std::to_chars_result written =
+      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed);
+  return {digits.data(), written.ptr};
 }
 
 std::string in_quotes(std::string_view text) {

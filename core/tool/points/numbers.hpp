@@ -24,6 +24,10 @@ std::optional<std::uint64_t> parse_count(std::string_view text);
 std::string_view take_word(std::string_view& text);
 std::string_view trimmed(std::string_view text);
 
+/// The shortest decimal without an exponent that is read as `value` again, such as 100000 and 0.0001: a label
+/// that is a number, as text has it.
+std::string plain_decimal(double value);
+
 /// `text` between quotes for a message: cut when it is long, with '?' for what cannot be shown: controls
 /// and what is no UTF-8.
 std::string in_quotes(std::string_view text);
