@@ -198,12 +198,17 @@ TEST_F(FootprintCommandTest, ThePointsOfAFileTakeMemory) {
   std::string text = las.text();
   EXPECT_EQ(memory_to_triangulate(file("a.las", text)), 200'000'000U);
   text[104] = static_cast<char>(text[104] | 0x80);
-  EXPECT_EQ(memory_to_triangulate(file("a.laz", text)), 200'000'000U) << "which is small";
+  const std::string laz = file("a.laz", text);
+  EXPECT_EQ(memory_to_triangulate(laz), 200'000'000U) << "which is small";
+  EXPECT_EQ(polylidar::tool::unpacked_size(laz), 20'000'000U);
+  EXPECT_EQ(polylidar::tool::memory_to_stream(laz), (1U << 24U) + 15'000'000U);
   las.minor = 2;
   las.format = 0;
   EXPECT_EQ(memory_to_triangulate(file("old.las", las.text())), 200'000'000U);
   EXPECT_EQ(memory_to_triangulate(file("a.csv", std::string(1000, '7'))), 8'000U);
   EXPECT_EQ(memory_to_triangulate(file("a.csv.gz", std::string(1000, '7'))), 64'000U);
+  for (const std::string name : {"a.npy", "a.ply", "a.f64", "a.raw"})
+    EXPECT_EQ(memory_to_triangulate(file(name, std::string(1000, '7'))), 25'000U) << name;
   EXPECT_EQ(memory_to_triangulate(file("short.las", "LASF")), 32U);
   EXPECT_EQ(memory_to_triangulate("/nowhere/a.las"), 0U);
   EXPECT_EQ(polylidar::tool::memory_to_stream(file("b.las", std::string(4000, '7'))), (1U << 24U) + 3000U);

@@ -37,19 +37,33 @@ void MemoryShare::take(std::uint64_t bytes) {
   bytes_ = bytes;
 }
 
+namespace {
+
+/// promised_points(), but no more than can be counted with, whatever a header says.
+std::optional<std::uint64_t> possible_points(const std::string& path) {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 40U;
+  const std::optional<std::uint64_t> points = promised_points(path);
+  return points ? std::optional(std::min(*points, kMost)) : std::nullopt;
+}
+
+}  // namespace
+
 std::uint64_t unpacked_size(const std::string& path) {
-  constexpr std::uint64_t kTextInGzip = 8;  // of coordinates with many digits it is 3
+  constexpr std::uint64_t kTextInGzip = 8;       // of coordinates with many digits it is 3
+  constexpr std::uint64_t kLeastLasRecord = 20;  // bytes of a point
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
-  return error ? 0 : size * (path.ends_with(".gz") ? kTextInGzip : 1);
+  if (error) return 0;
+  // LAZ packs to a fifth or less.
+  if (const auto points = possible_points(path)) return std::max(size, kLeastLasRecord * *points);
+  return size * (path.ends_with(".gz") ? kTextInGzip : 1);
 }
 
 std::uint64_t memory_to_triangulate(const std::string& path) {
-  constexpr std::uint64_t kOfPoint = 200;
-  constexpr std::uint64_t kOfByte = 8;                      // a point is 25 bytes of text
-  constexpr std::uint64_t kMost = std::uint64_t{1} << 40U;  // whatever a header says
-  const std::optional<std::uint64_t> points = promised_points(path);
-  return points ? kOfPoint * std::min(*points, kMost) : kOfByte * unpacked_size(path);
+  constexpr std::uint64_t kOfByteOfText = kBytesOfPoint / 25;    // ten digits and a separator, twice
+  constexpr std::uint64_t kOfByteOfNumbers = kBytesOfPoint / 8;  // two floats; of doubles it is half of that
+  if (const auto points = possible_points(path)) return kBytesOfPoint * *points;
+  return unpacked_size(path) * (names_binary(path) ? kOfByteOfNumbers : kOfByteOfText);
 }
 
 std::uint64_t memory_to_stream(const std::string& path) {

@@ -51,7 +51,11 @@ class MemoryShare {
   std::uint64_t bytes_ = 0;
 };
 
-/// The size of a file, in bytes, when it is unpacked: that of text which gzip compressed is guessed.
+/// What a point takes of memory with its triangles, and some to spare, in bytes.
+inline constexpr std::uint64_t kBytesOfPoint = 200;
+
+/// The size of a file, in bytes, when it is unpacked, about: that of LAZ is told by its number of points,
+/// that of what gzip compressed is guessed.
 std::uint64_t unpacked_size(const std::string& path);
 /// What all points of a file and their triangles take of memory, about, in bytes.
 std::uint64_t memory_to_triangulate(const std::string& path);

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <thread>
 
+#include "tool/commands/file_work.hpp"
 #include "tool/hull/degrees.hpp"
 #include "tool/program/configuration_error.hpp"
 #include "tool/program/free_memory.hpp"
@@ -207,7 +208,6 @@ double most_map_bytes(const ShapeChoice& choice) {
 }
 
 std::uint64_t most_points_in_memory(const ShapeChoice& choice) {
-  constexpr std::uint64_t kBytesOfPoint = 200;  // with its triangles, and some to spare
   return memory_for_points(choice) / kBytesOfPoint;
 }
 

@@ -293,6 +293,11 @@ bool names_points(const std::string& path) {
   return format != PointFormat::kAuto && format != PointFormat::kGeoJson && format != PointFormat::kWkt;
 }
 
+bool names_binary(const std::string& path) {
+  const PointFormat format = format_of_name(path);
+  return format == PointFormat::kNpy || format == PointFormat::kPly || format == PointFormat::kRaw;
+}
+
 std::vector<Point> read_points(const std::string& path, const PointFileOptions& options) {
   return read_point_file(path, options).points;
 }

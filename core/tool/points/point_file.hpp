@@ -141,6 +141,10 @@ std::filesystem::path projection_file_beside(const std::string& path);
 /// Whether `path` has the ending of a format that holds points only, such as .las.
 bool names_points(const std::string& path);
 
+/// Whether `path` has the ending of a format whose points are numbers in binary, or may be: .npy, .ply, .f64
+/// or .raw, also with .gz.
+bool names_binary(const std::string& path);
+
 /// The points of the file alone.
 std::vector<Point> read_points(const std::string& path, const PointFileOptions& options = {});
 
