@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <span>
 
@@ -212,6 +213,26 @@ TEST_F(PointFilesTest, ThePartsOfAFileHaveItsPoints) {
   for (const auto& [name, text] : std::vector<std::pair<const char*, std::string>>{
            {"a.csv", "1,2\n"}, {"fortran.npy", npy_of<double>({{1, 2}}, "<f8", true)}}) {
     EXPECT_FALSE(is_read_in_parts(file(name, text), {})) << name;
+  }
+}
+
+TEST_F(PointFilesTest, SeveralFilesKeepAsManyPointsAsFitTogether) {
+  LasFile las;
+  las.points.resize(10);
+  const std::string small = file("small.las", las.text());
+  las.points.resize(300);
+  const std::string large = file("large.las", las.text());
+  const std::vector<std::string> paths = {small, file("a.csv", "1,2\n"), large, small};
+  using Bytes = std::vector<std::uint64_t>;
+  EXPECT_EQ(kept_bytes(paths, {}, 8 * 320), (Bytes{80, 0, 2400, 80}));
+  EXPECT_EQ(kept_bytes(paths, {}, 8 * 319), (Bytes{80, 0, 2400, 0}));
+  EXPECT_EQ(kept_bytes(paths, {}, 8 * 309), (Bytes{80, 0, 0, 80}));
+  EXPECT_EQ(kept_bytes({&large, 1}, {}, 8), Bytes{8}) << "all of it, whatever the file is";
+  for (const PointSource& source :
+       point_sources(large, {}, 1, kept_bytes(paths, {})[2], [](std::size_t, const PointFile&) {})) {
+    EXPECT_EQ(points_of({source}).size(), 300U);
+    std::filesystem::remove(large);
+    EXPECT_EQ(points_of({source}).size(), 300U) << "it is read once";
   }
 }
 

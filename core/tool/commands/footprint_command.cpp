@@ -479,13 +479,16 @@ class UnionRun {
 
   /// The files that could be read, in metres where asked for and they are in degrees.
   std::vector<PointSource> sources(bool in_metres) {
-    std::vector<PointSource> sources;
-    const auto nothing = [](std::size_t, const PointFile&) {};
+    std::vector<std::string> paths;
     for (std::size_t file = 0; file < command_.inputs.size(); ++file) {
-      if (!files_.is_done(file)) continue;
-      for (PointSource& part :
-           point_sources(command_.inputs[file], options_, count_ == 1 ? parts_for(core_.threads) : 1,
-                         kMostKeptBytes / command_.inputs.size(), nothing)) {
+      if (files_.is_done(file)) paths.push_back(command_.inputs[file]);
+    }
+    const std::vector<std::uint64_t> kept = kept_bytes(paths, options_);
+    const std::size_t parts = count_ == 1 ? parts_for(core_.threads) : 1;
+    const auto nothing = [](std::size_t, const PointFile&) {};
+    std::vector<PointSource> sources;
+    for (std::size_t file = 0; file < paths.size(); ++file) {
+      for (PointSource& part : point_sources(paths[file], options_, parts, kept[file], nothing)) {
         if (!in_metres || !latitude_) {
           sources.push_back(std::move(part));
           continue;

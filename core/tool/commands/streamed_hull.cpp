@@ -151,15 +151,16 @@ class StreamRun {
   /// Each file as up to so many sources.
   std::vector<PointSource> sources(std::size_t most_parts) {
     const PointFileOptions options = file_options();
+    const std::vector<std::uint64_t> kept = kept_bytes(command_.inputs, options);
     std::vector<PointSource> sources;
-    for (const std::string& input : command_.inputs) {
+    for (std::size_t i = 0; i < command_.inputs.size(); ++i) {
+      const std::string& input = command_.inputs[i];
       const auto on_read = [this, &input](std::size_t part, const PointFile& file) {
         if (part > 0) return;
         check_crs(input, chosen_crs(command_.shape, file.crs));
         if (!file.note.empty()) say_once(input + ": " + file.note);
       };
-      for (PointSource& part :
-           point_sources(input, options, most_parts, kMostKeptBytes / command_.inputs.size(), on_read)) {
+      for (PointSource& part : point_sources(input, options, most_parts, kept[i], on_read)) {
         sources.push_back(std::move(part));
       }
     }

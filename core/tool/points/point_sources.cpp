@@ -1,6 +1,7 @@
 #include "tool/points/point_sources.hpp"
 
 #include <memory>
+#include <optional>
 
 #include "tool/points/kept_points.hpp"
 #include "tool/points/readers.hpp"
@@ -39,6 +40,19 @@ class FileSource {
 };
 
 }  // namespace
+
+std::vector<std::uint64_t> kept_bytes(std::span<const std::string> paths, const PointFileOptions& options,
+                                      std::uint64_t most) {
+  if (paths.size() == 1) return {most};
+  std::vector<std::uint64_t> shares;
+  for (const std::string& path : paths) {
+    const std::optional<ExpectedPoints> expected = expected_points(path, options);
+    const bool has_room = expected && expected->count <= most / sizeof(point_files::LatticePoint);
+    shares.push_back(has_room ? expected->count * sizeof(point_files::LatticePoint) : 0);
+    most -= shares.back();
+  }
+  return shares;
+}
 
 std::vector<PointSource> point_sources(const std::string& path, const PointFileOptions& options,
                                        std::size_t most_parts, std::uint64_t most_kept_bytes,

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,12 @@ inline std::size_t parts_for(std::size_t threads) {
   constexpr std::size_t kPartsForThread = 4;
   return threads == 1 ? 1 : kPartsForThread * threads;
 }
+
+/// What each of these files may keep, in bytes, as point_sources() takes it: of several, each LAS file gets
+/// what its points need if there is room beside those before it, and the others nothing. All together have
+/// `most`.
+std::vector<std::uint64_t> kept_bytes(std::span<const std::string> paths, const PointFileOptions& options,
+                                      std::uint64_t most = kMostKeptBytes);
 
 /// Told each time that a source gave its part of a file, with all but its points; by the thread that took it.
 using OnRead = std::function<void(std::size_t part, const PointFile& file)>;
