@@ -33,6 +33,11 @@ constexpr std::size_t kNewHeader = 375;  // 1.4
 
 constexpr std::size_t kFlags = 15;  // in a point, the byte of which one bit says that it is withheld
 
+// Numbers of records of the user LASF_Projection.
+constexpr std::uint64_t kWkt = 2112;
+constexpr std::uint64_t kGeoKeys = 34735;
+constexpr std::uint64_t kGeoKeyTexts = 34737;
+
 constexpr std::size_t kRecordHeader = 54;
 constexpr std::size_t kExtendedRecordHeader = 60;
 
@@ -199,9 +204,10 @@ class LasReader {
 
   /// Behind the points, in 1.4: as the others, with a length of 64 bits.
   void read_extended_records() {
-    // What decodes LAZ has read a pipe to its end.
-    if (header_.extended_records == 0 || has_wkt_ || (header_.is_compressed && !reader_.remaining())) return;
+    if (header_.extended_records == 0 || has_wkt_) return;
     if (reader_.options().part.number > 0) return;  // the first part says what they say
+    // What decodes LAZ has read a pipe to its end.
+    if (laz_ && laz_->is_in_memory()) return take_extended_records(laz_->from(header_.extended_records_at));
     if (header_.extended_records_at < position_) return;
     if (!reader_.skip(header_.extended_records_at - position_)) return;
     for (std::uint64_t r = 0; r < header_.extended_records; ++r) {
@@ -213,25 +219,49 @@ class LasReader {
     }
   }
 
-  /// Takes what says the coordinate system out of a record of which `start` has been read. WKT goes before
-  /// GeoKeys, as the specification has it for 1.4.
+  /// The same of `bytes` that begin with them.
+  void take_extended_records(std::string_view bytes) {
+    for (std::uint64_t r = 0; r < header_.extended_records; ++r) {
+      if (bytes.size() < kExtendedRecordHeader) return;
+      const char* const start = bytes.data();
+      const std::uint64_t size = whole_at<std::uint64_t>(start + 20);
+      bytes.remove_prefix(kExtendedRecordHeader);
+      if (size > bytes.size()) return;
+      if (is_wanted(start, size)) take_record(start, std::string(bytes.substr(0, size)));
+      bytes.remove_prefix(size);
+    }
+  }
+
+  /// Takes what it needs out of a record of which `start` has been read; false when the file ends in it.
   bool read_record(const char* start, std::uint64_t size) {
-    constexpr std::uint64_t kWkt = 2112;
-    constexpr std::uint64_t kGeoKeys = 34735;
-    constexpr std::uint64_t kGeoKeyTexts = 34737;
-    constexpr std::uint64_t kLongest = std::uint64_t{1} << 20U;
-    const std::uint64_t id = whole_at<std::uint16_t>(start + 18);
-    const std::string_view user(start + 2, 16);
-    const bool is_laz = is_laz_record(user, id) && laz_record_.empty() && size <= kLongest;
-    const bool is_projection = user.starts_with("LASF_Projection");
-    if (!is_laz &&
-        (!is_projection || (id != kWkt && id != kGeoKeys && id != kGeoKeyTexts) || size > kLongest)) {
+    if (!is_wanted(start, size)) {
       position_ += size;
       return reader_.skip(size);
     }
     std::string bytes(static_cast<std::size_t>(size), '\0');
     if (!take(bytes.data(), bytes.size())) return false;
-    if (is_laz) {
+    take_record(start, std::move(bytes));
+    return true;
+  }
+
+  static std::uint64_t id_of(const char* record) { return whole_at<std::uint16_t>(record + 18); }
+  static std::string_view user_of(const char* record) { return {record + 2, 16}; }
+
+  /// Whether a record of `size` bytes that begins with `start` says how the points are compressed, or the
+  /// coordinate system.
+  bool is_wanted(const char* start, std::uint64_t size) const {
+    constexpr std::uint64_t kLongest = std::uint64_t{1} << 20U;
+    const std::uint64_t id = id_of(start);
+    const bool is_projection =
+        user_of(start).starts_with("LASF_Projection") && (id == kWkt || id == kGeoKeys || id == kGeoKeyTexts);
+    const bool is_laz = is_laz_record(user_of(start), id) && laz_record_.empty();
+    return (is_projection || is_laz) && size <= kLongest;
+  }
+
+  /// Takes what a record that is_wanted() says. WKT goes before GeoKeys, as the specification has it for 1.4.
+  void take_record(const char* start, std::string bytes) {
+    const std::uint64_t id = id_of(start);
+    if (is_laz_record(user_of(start), id)) {
       laz_record_ = std::move(bytes);
     } else if (id == kWkt) {
       const std::optional<Crs> crs = crs_of_wkt(std::string_view(bytes).substr(0, bytes.find('\0')));
@@ -245,7 +275,6 @@ class LasReader {
         geokeys_[k] = whole_at<std::uint16_t>(&bytes[2 * k]);
       }
     }
-    return true;
   }
 
   void check_size() const {

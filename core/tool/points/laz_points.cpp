@@ -252,6 +252,12 @@ void LazPoints::begin_chunk() {
   if (!decoder_->start(bytes_, left_in_chunk_)) fail_at_chunk();
 }
 
+std::string_view LazPoints::from(std::uint64_t place) const {
+  if (place < points_at_ || place >= end_) return {};
+  const auto begin = static_cast<std::size_t>(place - points_at_);
+  return {reinterpret_cast<const char*>(rest_.data()) + begin, rest_.size() - begin};
+}
+
 /// The bytes at `place`, which are between the first point and the end.
 void LazPoints::read_bytes(std::uint64_t place, std::span<unsigned char> to) const {
   if (is_in_memory_) {

@@ -39,6 +39,11 @@ class LazPoints {
   /// The next `count` points, of those that are left, as ChunkDecoder::read() gives them.
   void read(char* records, std::size_t count);
 
+  /// Whether the file was read to its end, as a pipe is, and is kept.
+  bool is_in_memory() const { return is_in_memory_; }
+  /// Of such a file the bytes from `place` on; none if the points begin behind it.
+  std::string_view from(std::uint64_t place) const;
+
  private:
   struct Chunk {
     std::uint64_t first_point = 0;
