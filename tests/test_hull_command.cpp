@@ -633,10 +633,9 @@ TEST_F(HullCommandTest, DegreesAreTakenAsMetres) {
   EXPECT_EQ(hull({plain, "--max-edge-length", "300", "--crs", "EPSG:4326"}).out, outcome.out);
   const std::string plane = hull({plain, "--max-edge-length", "0.005"}).out;
   EXPECT_EQ(hull({geojson, "--max-edge-length", "0.005", "--crs", "none"}).out, plane);
-  EXPECT_EQ(
-      hull({file("far.geojson", geojson_multipoint({{500, 1}, {501, 1}, {500, 2}}))}).err.find("metres"),
-      std::string::npos)
-      << "no longitude is 500";
+  // No longitude is 500, and GeoJSON without a system is in degrees.
+  expect_refusal(hull({file("far.geojson", geojson_multipoint({{500, 1}, {501, 1}, {500, 2}}))}), 2,
+                 "the coordinate system is longitude and latitude, but x is from 500 to 501");
 }
 
 TEST_F(HullCommandTest, CoordinatesThatAreNoDegreesAreTold) {
@@ -649,6 +648,14 @@ TEST_F(HullCommandTest, CoordinatesThatAreNoDegreesAreTold) {
   EXPECT_EQ(json::parse(left.out)["properties"]["points"], 3);
   expect_says(left.err, "longitude and latitude: lengths are in metres");
   EXPECT_EQ(json::parse(succeeded(hull({table, "--crs", "none"})).out)["properties"]["points"], 4);
+}
+
+TEST_F(HullCommandTest, GradsAreRefused) {
+  const std::string paris = file("paris.csv", "0.01,54.27\n0.02,54.27\n0.01,54.28\n");
+  const std::string words = "the coordinate system is longitude and latitude in grads";
+  expect_refusal(hull({paris, "--crs", "EPSG:4807"}), 2, words);
+  expect_end(run_program({POLYLIDAR, "footprint", paris, "--crs", "4807"}), 2, words);
+  EXPECT_EQ(hull({paris, "--crs", "none"}).code, 0);
 }
 
 TEST_F(HullCommandTest, BothSidesOfTheDateLineAreTold) {

@@ -74,6 +74,7 @@ void make_shapes(const PointFile& file, std::uint8_t choice) {
   if ((choice & 4U) != 0) options.simplify = 0.5;
   if ((choice & 8U) != 0) options.core.max_edge_length = 1;
   if ((choice & 16U) != 0) options.max_parts = 2;
+  if (file.crs.is_geographic && !could_be_degrees(bounding_box(file.points))) return;  // they are refused
   const std::optional<double> latitude = middle_latitude(file.crs, file.points);
   const std::vector<Point> plane = latitude ? to_metres(file.points, *latitude) : file.points;
   std::vector<GroupHull> hulls;

@@ -255,7 +255,14 @@ void check_magnitude(std::span<const Point> points) {
 
 void check_degrees(const Crs& crs, const Box& box) {
   const bool is_empty = box.min.x > box.max.x;
-  if (!crs.is_geographic || !crs.is_given || is_empty || could_be_degrees(box)) return;
+  if (!crs.is_geographic || is_empty) return;
+  if (crs.is_in_grads) {
+    throw ConfigurationError(
+        "the coordinate system is longitude and latitude in grads, or in another unit than degrees; "
+        "transform "
+        "the points into degrees, or give --crs none to take them as plane coordinates");
+  }
+  if (could_be_degrees(box)) return;
   throw ConfigurationError(
       "the coordinate system is longitude and latitude, but x is from " + shortest(box.min.x) + " to " +
       shortest(box.max.x) + " and y from " + shortest(box.min.y) + " to " + shortest(box.max.y) +

@@ -70,8 +70,9 @@ inline constexpr std::string_view kMayBeDegrees =
 /// Whether kMayBeDegrees is to be said of points in `box`.
 bool may_be_degrees(const ShapeChoice& choice, const Crs& crs, const Box& box);
 
-/// Throws ConfigurationError where a system that was given, not one that is only usual, is longitude and
-/// latitude, and a coordinate in `box` cannot be one: as metres the shape would be as wrong as unseen.
+/// Throws ConfigurationError where a system is longitude and latitude, and a coordinate in `box` cannot be
+/// one, also where GeoJSON names no system, and where they are in another unit than degrees: as metres the
+/// shape would be as wrong as unseen.
 void check_degrees(const Crs& crs, const Box& box);
 
 /// What is said where longitudes span more than half of the globe.

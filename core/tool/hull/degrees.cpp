@@ -45,7 +45,6 @@ bool look_like_degrees(const Box& box) {
 std::optional<double> middle_latitude(const Crs& crs, std::span<const Point> points) {
   if (!crs.is_geographic || points.empty()) return {};
   const Box box = bounding_box(points);
-  if (!could_be_degrees(box)) return {};
   return (box.min.y + box.max.y) / 2;
 }
 

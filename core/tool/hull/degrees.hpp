@@ -19,9 +19,8 @@ bool could_be_degrees(const Box& box);
 /// certain: this is enough for a hint.
 bool look_like_degrees(const Box& box);
 
-/// The middle latitude of points that are longitudes and latitudes in degrees; nothing where `crs` does not
-/// say so or a coordinate cannot be one (beyond 360 or 90), which happens to GeoJSON of projected
-/// coordinates.
+/// The middle latitude of points that are longitudes and latitudes, which could_be_degrees() is to be asked
+/// of before; nothing where `crs` does not say so, or there are no points.
 std::optional<double> middle_latitude(const Crs& crs, std::span<const Point> points);
 
 /// Points in degrees as metres east and north: both axes are scaled by the metres of a degree of latitude on

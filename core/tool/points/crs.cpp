@@ -4,7 +4,9 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <vector>
 
 #include "tool/program/letter_case.hpp"
@@ -66,6 +68,13 @@ constexpr auto kGeographicWithHeights = std::to_array<Numbers>(
      {9656, 9657}, {9705, 9705}, {9707, 9707}, {9723, 9725},   {9785, 9785},   {9883, 9883},
      {9907, 9907}, {9924, 9924}, {9948, 9950}, {20001, 20001}, {20037, 20038}, {20043, 20043}});
 
+/// Of all these, those in grads: the unit of their axes is 9105.
+constexpr auto kInGrads = std::to_array<int>({4807, 4810, 4811, 4816, 4819, 4821, 4901, 4902, 7400});
+
+bool has_grads(int number) {
+  return std::find(kInGrads.begin(), kInGrads.end(), number) != kInGrads.end();
+}
+
 std::optional<int> number_of(std::string_view text) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -73,11 +82,18 @@ std::optional<int> number_of(std::string_view text) {
   return number;
 }
 
-/// Whether `text` is the number 1, be it written 1.0.
-bool is_one(std::string_view text) {
+/// The number that the whole of `text` is.
+std::optional<double> real_number_of(std::string_view text) {
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size() && number == 1;
+  return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
+
+/// Whether `text`, which says how many radians a unit has, says those of a degree or nothing. Some programs
+/// write few digits.
+bool may_be_degree(std::string_view text) {
+  constexpr double kDegree = std::numbers::pi / 180;
+  return std::abs(real_number_of(text).value_or(kDegree) - kDegree) <= 0.01 * kDegree;
 }
 
 bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
@@ -127,6 +143,16 @@ int number_of_known_name(std::string_view name) {
   return 0;
 }
 
+/// Whether the innermost node gives the geographic system at this depth another unit than degrees. That of
+/// its prime meridian may be another one.
+bool gives_other_unit(const std::vector<Node>& open, std::size_t depth) {
+  const Node& node = open.back();
+  const bool is_own = open.size() == depth + 1 && is_one_of(node.keyword, {"UNIT", "ANGLEUNIT"});
+  const bool is_of_axis =
+      open.size() == depth + 2 && node.keyword == "ANGLEUNIT" && open[depth].keyword == "AXIS";
+  return (is_own || is_of_axis) && node.values.size() >= 2 && !may_be_degree(node.values[1]);
+}
+
 /// The horizontal system, without the text.
 std::optional<Crs> horizontal_system(std::string_view text) {
   std::vector<Node> open;
@@ -162,8 +188,9 @@ std::optional<Crs> horizontal_system(std::string_view text) {
       }
       const bool is_own_unit = open.size() == depth_of_found + 1 && node.keyword == "UNIT";
       if (found && (is_own_unit || node.keyword == "LENGTHUNIT") && node.values.size() >= 2) {
-        is_in_metres = is_in_metres && is_one(node.values[1]);
+        is_in_metres = is_in_metres && real_number_of(node.values[1]) == 1;
       }
+      if (found && found->is_geographic && gives_other_unit(open, depth_of_found)) found->is_in_grads = true;
       if (found && open.size() == depth_of_found && found->epsg == 0 &&
           (found->is_geographic || is_in_metres)) {
         found->epsg = number_of_known_name(node.values[0]);
@@ -187,7 +214,7 @@ Crs crs_of_epsg(int number) {
   const auto has = [&](const Numbers& numbers) { return numbers.has(number); };
   const bool is_geographic = std::any_of(kGeographic.begin(), kGeographic.end(), has) ||
                              std::any_of(kGeographicWithHeights.begin(), kGeographicWithHeights.end(), has);
-  return {.epsg = number, .is_geographic = is_geographic, .is_given = true};
+  return {.epsg = number, .is_geographic = is_geographic, .is_given = true, .is_in_grads = has_grads(number)};
 }
 
 std::optional<Crs> crs_of_name(std::string_view name) {
@@ -208,6 +235,7 @@ std::optional<Crs> crs_of_name(std::string_view name) {
 std::optional<Crs> crs_of_wkt(std::string_view text) {
   std::optional<Crs> crs = horizontal_system(text);
   if (crs && crs->epsg == 0) crs->wkt = text;
+  if (crs && has_grads(crs->epsg)) crs->is_in_grads = true;
   return crs;
 }
 
@@ -216,6 +244,10 @@ std::optional<Crs> crs_of_geokeys(std::span<const std::uint16_t> keys, std::stri
   constexpr std::uint16_t kCitation = 1026;
   constexpr std::uint16_t kGeodeticSystem = 2048;
   constexpr std::uint16_t kGeodeticCitation = 2049;
+  constexpr std::uint16_t kAngularUnit = 2054;
+  constexpr std::uint16_t kRadian = 9101;
+  constexpr std::uint16_t kDegree = 9102;
+  constexpr std::uint16_t kGon = 9106;  // those between are minutes, seconds and grads
   constexpr std::uint16_t kProjectedSystem = 3072;
   constexpr std::uint16_t kProjectedCitation = 3073;
   constexpr std::uint16_t kLengthUnit = 3076;
@@ -235,8 +267,11 @@ std::optional<Crs> crs_of_geokeys(std::span<const std::uint16_t> keys, std::stri
   const bool is_geographic = model == 2 || (model == 0 && projected == 0 && geodetic != 0);
   if (!is_geographic && model != 1 && projected == 0) return {};
   const std::uint16_t number = is_geographic ? geodetic : projected;
+  const std::uint16_t angle = numbers[kAngularUnit];
+  const bool is_in_grads =
+      is_geographic && (has_grads(number) || (angle >= kRadian && angle <= kGon && angle != kDegree));
   if (number != 0 && number != kUserDefined) {
-    return Crs{.epsg = number, .is_geographic = is_geographic, .is_given = true};
+    return Crs{.epsg = number, .is_geographic = is_geographic, .is_given = true, .is_in_grads = is_in_grads};
   }
   // A system of that name in feet is another one.
   const bool is_in_metres = !numbers.contains(kLengthUnit) || numbers[kLengthUnit] == kMetre;
@@ -244,11 +279,12 @@ std::optional<Crs> crs_of_geokeys(std::span<const std::uint16_t> keys, std::stri
     std::string_view name = citations[key];
     name = name.substr(0, name.find_first_of(std::string_view("|\0", 2)));
     // Esri's programs write "PCS Name = WGS_1984_UTM_Zone_32N".
-    const Crs known = crs_of_epsg(number_of_known_name(name.substr(name.rfind('=') + 1)));
+    Crs known = crs_of_epsg(number_of_known_name(name.substr(name.rfind('=') + 1)));
+    known.is_in_grads = is_in_grads;
     if (known.epsg > 0 && known.is_geographic == is_geographic && (is_geographic || is_in_metres))
       return known;
   }
-  return Crs{.epsg = 0, .is_geographic = is_geographic, .is_given = true};
+  return Crs{.epsg = 0, .is_geographic = is_geographic, .is_given = true, .is_in_grads = is_in_grads};
 }
 
 }  // namespace polylidar::tool
