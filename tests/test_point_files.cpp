@@ -1,6 +1,7 @@
 // Readers of point files: every form gives the same points, every fault one sentence, and no bytes a crash.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -163,6 +164,20 @@ TEST_F(PointFilesTest, TwoColumnsWithUnknownNamesAreTakenInTheirOrder) {
   }
 }
 
+TEST_F(PointFilesTest, AFirstRowThatCountsFromZeroMayBeAHeader) {
+  for (const std::string row : {"0,1", "0;1;2", "0 1 2 3"}) {
+    std::string next = row;
+    std::replace(next.begin(), next.end(), '1', '5');
+    const PointFile counted = read_point_file(file("a.csv", row + "\r\n" + next + "\n" + next + "\n"));
+    EXPECT_EQ(counted.points, (Points{{0, 1}, {0, 5}, {0, 5}}));
+    EXPECT_EQ(counted.note, "the first row '" + row + "' is taken for a point; remove it if it is a header");
+  }
+  for (const char* text : {"0,1\n", "1,2\n0,1\n", "0,2\n1,2\n", "0,1,3\n1,2,3\n", "0.0,1.0\n1,2\n",
+                           "x,y\n0,1\n1,2\n", "00,1\n1,2\n"}) {
+    EXPECT_EQ(read_point_file(file("a.csv", text)).note, "") << text;
+  }
+}
+
 TEST_F(PointFilesTest, TheSystemBesideHasTheNameOfTheFile) {
   file("a.prj", R"(PROJCS["a",AUTHORITY["EPSG","25833"]])");
   const Crs beside = {25833, false, true};
@@ -313,7 +328,8 @@ TEST_F(PointFilesTest, FaultsInColumns) {
       {"a.csv", "1,\xF4\x90\x80\x80\n", R"('????' is not a number)"},  // beyond U+10FFFF
       {"a.csv", std::string("1,2\0\n", 5), "zero byte"},
       {"a.csv", std::string(2000000, '7'), ", line 1: the line is longer than"},
-      {"a.xyz", "1,2\n3,4\n", ", line 2: there is no column 2, as the line has 1; the first row"},
+      {"a.xyz", "1,2\n3,4\n", ", line 1: columns of .xyz, .pts and .asc are separated by blanks"},
+      {"a.pts", "2\n1;2\n3;4\n", ", line 2: columns of .xyz, .pts and .asc are separated by blanks"},
       {"a.csv", "LASF\1\2", "its LAS header is not whole"},
       {"a.csv", "\x1F\x8B\x08", "its gzip stream"},
       {"a.csv", "PK\x03\x04", "it is an archive"},

@@ -2,6 +2,7 @@
 #include <array>
 #include <deque>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "tool/points/numbers.hpp"
 #include "tool/points/readers.hpp"
@@ -256,6 +257,14 @@ bool is_passed_over(std::string_view line, bool is_before_rows, char delimiter) 
   return first == std::string_view::npos || (is_before_rows && line[first] == '#');
 }
 
+/// Whether the fields are 0, 1, 2 and so on, as some programs name columns that have no names.
+bool count_from_zero(const std::vector<std::string_view>& fields) {
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    if (fields[f] != std::to_string(f)) return false;
+  }
+  return true;
+}
+
 /// How many `fields` there are, without empty ones at the end.
 std::size_t used(const std::vector<std::string_view>& fields) {
   const auto last =
@@ -287,15 +296,24 @@ void read_columns(BlockReader& reader, bool only_blanks, PointFile& file) {
   std::optional<char> announced;
   bool is_count_seen = false;  // in the first line of a PTS file, of its points
   std::size_t names = 0;       // in the first row, if rows are compared with them; 0: they are not
+  std::string note;            // on the first row, if another one follows
   const auto start = [&](std::string_view line) {
     if (!only_blanks) row.separate_by(announced.value_or(delimiter_of(line)));
     row.split(line, line.size() + 1);
+    if (only_blanks && row.fields().size() == 1 && line.find_first_of(",;") != std::string_view::npos) {
+      reader.fail_here(
+          "columns of .xyz, .pts and .asc are separated by blanks, and those of this line are not; give "
+          "--input csv");
+    }
     columns = ColumnChoice(reader, row.fields()).choose(reader.options().columns, reader.options().by);
     needed = columns.needed();
     if (columns.is_geographic) file.crs = crs_of_epsg(4326);
     if (columns.is_guess) {
       file.note = "the columns " + in_quotes(row.fields()[0]) + " and " + in_quotes(row.fields()[1]) +
                   " are taken for x and y; --columns says which is which";
+    }
+    if (!columns.with_header && count_from_zero(row.fields())) {
+      note = "the first row " + in_quotes(line) + " is taken for a point; remove it if it is a header";
     }
   };
   const auto fail_short = [&] {
@@ -330,6 +348,8 @@ void read_columns(BlockReader& reader, bool only_blanks, PointFile& file) {
         names = columns.is_named || columns.is_guess ? row.fields().size() : 0;
         continue;
       }
+    } else if (!note.empty()) {
+      file.note = std::exchange(note, {});
     } else if (names > 0 && may_have_more(line, names, row.delimiter())) {
       row.split(line, line.size() + 1);
       const std::size_t count = used(row.fields());
