@@ -204,6 +204,15 @@ TEST(PolylidarManualTest, SaysWhyItCannotBeWritten) {
                  "taken/polylidar.1: Is a directory");
 }
 
+TEST(PolylidarManualTest, SaysWhichNumbersAnOptionTakes) {
+  const TemporaryFolder folder;
+  succeeded(run_program({POLYLIDAR, "--write-manual", folder.path()}));
+  const std::string page = read_text(folder.path() / "polylidar-hull.1");
+  expect_says(page, "\nLongest edge of a triangle of the shape; inf: no limit. Values: 0 or more, or inf.");
+  expect_says(page, " Values: 0 or more.");
+  EXPECT_FALSE(contains(page, "inf or more")) << page;
+}
+
 TEST(PolylidarManualTest, CompletesDriversOfGdalWhereThereIsGdal) {
   const auto completion_of = [](const std::string& program) {
     const TemporaryFolder folder;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cctype>
 #include <map>
 #include <sstream>
@@ -89,8 +90,11 @@ std::string allowed_values(const ValueHelp& help) {
     return help.check.substr(begin + 4, between - begin - 4) + " to " +
            help.check.substr(between + 3, help.check.size() - between - 4);
   }
-  if (help.check == "NONNEGATIVE") return "0 or more";
-  if (help.check.starts_with(">=")) return help.check.substr(2) + " or more";
+  if (help.check.starts_with(">=")) {
+    const std::size_t beside = std::min(help.check.find(" or "), help.check.size());
+    const std::string more = help.check.substr(2, beside - 2) + " or more";
+    return beside == help.check.size() ? more : more + "," + help.check.substr(beside);
+  }
   if (help.check.starts_with('>')) return "above " + help.check.substr(1);
   return help.check;
 }
