@@ -790,6 +790,10 @@ TEST_F(HullCommandTest, AnInfiniteLimitIsNone) {
       json::parse(succeeded(hull({points_file(), "--max-perimeter", "inf"})).out)["properties"];
   EXPECT_TRUE(properties.at("max_perimeter").is_null());
   EXPECT_EQ(properties["parts"], 1);
+  const json widened =
+      json::parse(succeeded(hull({points_file(), "--max-edge-length", "0", "--cover"})).out)["properties"];
+  EXPECT_TRUE(widened.at("max_edge_length").is_null());
+  EXPECT_FALSE(widened.contains("alpha"));
   const std::vector<std::string> many = {file("many.npy", npy_of<double>(many_points(), "<f8")), "--alpha",
                                          "inf"};
   EXPECT_EQ(succeeded(hull(joined(many, {"--stream"}))).out, succeeded(hull(many)).out);

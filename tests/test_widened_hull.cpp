@@ -131,6 +131,20 @@ TEST(WidenedHull, SaysTheLimitAndTheSizes) {
   EXPECT_EQ(widened_hull(extractor, square, {.alpha = 1}, {true, true}).options, Options{.alpha = 1});
 }
 
+// No multiple of 0 covers a point.
+TEST(WidenedHull, OfTheConvexHullKeepsTheNamesOfTheLimits) {
+  const std::vector<Point> points = two_squares();
+  Extractor extractor;
+  for (const Wanted& wanted : {Wanted{.cover = true}, Wanted{.one = true}}) {
+    const WidenedHull by_length = widened_hull(extractor, points, {.max_edge_length = 0}, wanted);
+    EXPECT_EQ(by_length.options, Options{.max_edge_length = kNoLimit});
+    EXPECT_EQ(by_length.shape, concave_hull(points, {.alpha = kNoLimit}));
+    const WidenedHull by_both = widened_hull(extractor, points, {.alpha = 0, .max_perimeter = 0}, wanted);
+    EXPECT_EQ(by_both.options, (Options{.alpha = kNoLimit, .max_perimeter = kNoLimit}));
+    EXPECT_EQ(by_both.shape, by_length.shape);
+  }
+}
+
 TEST(WidenedHull, OfEveryLabel) {
   std::vector<Point> points = two_squares();
   std::vector<std::int64_t> labels(points.size(), 5);

@@ -61,7 +61,7 @@ Options widened(Options options, double factor) {
   }
   for (const LimitField& field : kLimitFields) {
     std::optional<double>& limit = options.*field.option;
-    if (limit) *limit = is_convex ? kNoLimit : *limit * factor;
+    if (limit) *limit = is_convex ? kNoLimit : *limit * factor;  // infinity times 0 is no number
   }
   return options;
 }

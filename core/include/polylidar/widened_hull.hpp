@@ -18,10 +18,10 @@ struct WidenedHull {
 /// The hull of `points` with the least limit that gives what is wanted, to a thousandth. All limits that are
 /// given are widened by one factor; if none is given, `detail` is divided by it. Doubling and halving finds a
 /// factor for which it holds. It is the least one if wider limits lose no triangle: that is so if limits are
-/// given. If the core chooses them, it may drop a small region once another one has grown. Beyond a
-/// factor of 2^60 there is no limit, and the shape is the convex hull. If one polygon is wanted and the
-/// caller's limit keeps no triangle, the polygon covers all points. The shape is empty if all points lie on a
-/// line.
+/// given. If the core chooses them, it may drop a small region once another one has grown. Beyond a factor of
+/// 2^60 the shape is the convex hull, and what was given is kNoLimit, or alpha if nothing was. If one polygon
+/// is wanted and the caller's limit keeps no triangle, the polygon covers all points. The shape is empty if
+/// all points lie on a line.
 ///
 /// O(n log n). All points are triangulated, once; then there are about 20 steps, each of which makes a shape.
 /// `on_step` is called before each step; what it throws ends the work. Afterwards `extractor` is as after
