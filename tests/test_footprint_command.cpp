@@ -438,14 +438,28 @@ TEST_F(FootprintUnionTest, AFewPointsFarApartDoNotDecideForAll) {
 
 TEST_F(FootprintUnionTest, OneLimitForAllWhereAllPointsDoNotFitIntoMemory) {
   // Clusters, whose sizes only the triangulation of all points tells.
-  std::vector<std::string> files;
-  for (int column = 0; column < 10; ++column) {
+  const auto clusters = [](int column) {
     LasFile las = tile(column);
     for (std::size_t i = 0; i < las.points.size(); ++i) {
       las.points[i].x = las.points[i / 10 * 10].x + las.points[i].x / 300;
       las.points[i].y = las.points[i / 10 * 10].y + las.points[i].y / 300;
     }
-    files.push_back(file("clusters_" + std::to_string(column) + ".las", las.text()));
+    return las;
+  };
+  std::vector<std::string> files;
+  std::vector<std::string> alike;
+  for (int column = 0; column < 10; ++column) {
+    files.push_back(file("clusters_" + std::to_string(column) + ".las", clusters(column).text()));
+    // Nearly the same points elsewhere, without ties: the sizes of the files are the same in four digits.
+    LasFile same = clusters(0);
+    std::mt19937 random(7);
+    for (LasPoint& p : same.points) {
+      p.x = 1000 * p.x + static_cast<std::int32_t>(random() % 1000);
+      p.y = 1000 * p.y + static_cast<std::int32_t>(random() % 1000);
+    }
+    same.offset.x += 100 * column;
+    same.scale.x = same.scale.y = 1e-5 * (1 + 1e-8 * column);
+    alike.push_back(file("alike_" + std::to_string(column) + ".las", same.text()));
   }
   const std::string few = file("few.csv", "500000,5600300\n500070,5600310\n500010,5600390\n500090,5600380\n");
   files.push_back(few);
@@ -456,6 +470,10 @@ TEST_F(FootprintUnionTest, OneLimitForAllWhereAllPointsDoNotFitIntoMemory) {
   const json properties = feature_of(outcome)["properties"];
   EXPECT_LT(properties["alpha"].get<double>(), 60) << "the few points do not decide";
   EXPECT_GT(properties["area"].get<double>(), 0);
+  const std::string said = succeeded(unite(alike, {"--memory", "15"})).err;
+  const std::size_t sizes = said.find("each file alone would get triangles of size ");
+  ASSERT_NE(sizes, std::string::npos) << said;
+  EXPECT_FALSE(contains(said.substr(sizes, said.find(')', sizes) - sizes), " to ")) << said;
   expect_end(unite(files, {"--crs", "25832", "--memory", "1"}), 2,
              "has 8000 points, too many for a limit to be chosen; give --alpha");
 }

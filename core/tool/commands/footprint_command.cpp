@@ -470,11 +470,11 @@ class UnionRun {
     // What that handful leaves goes: holes and parts with room for fewer than log n + 4 points.
     core_.fill_single_triangles = true;
     least_area_ = (log_n + 4) * spacing * spacing;
+    const std::string least = four_digits(sizes.front().first);
+    const std::string most = four_digits(sizes.back().first);
     say("triangles with a circumradius of " + four_digits(*core_.alpha) +
-        " at most, chosen from the points (each file alone would get triangles of size " +
-        four_digits(sizes.front().first) +
-        (sizes.front() == sizes.back() ? "" : " to " + four_digits(sizes.back().first)) +
-        "); --detail scales it, " + std::string(kByHand));
+        " at most, chosen from the points (each file alone would get triangles of size " + least +
+        (least == most ? "" : " to " + most) + "); --detail scales it, " + std::string(kByHand));
   }
 
   /// The files that could be read, in metres where asked for and they are in degrees.
