@@ -448,11 +448,22 @@ TEST_F(HullCommandTest, UsageErrors) {
 TEST_F(HullCommandTest, WhatWorksOnShapesNeedsUsualCoordinates) {
   const std::string huge = file("huge.csv", "0,0\n1e160,0\n0,1e160\n1e160,1e160\n3e159,4e159\n");
   expect_end(hull({huge}), 0, "chosen from the points");
-  for (const std::vector<std::string>& option :
-       {std::vector<std::string>{"--keep-outliers"}, {"--one"}, {"--cover"}, {"--simplify", "1"}}) {
-    expect_refusal(hull(joined({huge, "--crs", "none"}, option)), 2,
-                   "coordinates as large or as small as these do not go with --one");
+  const std::string large = file("large.csv", "0,0\n1e46,0\n0,1e46\n1e46,1e46\n3e45,4e45\n");
+  const std::string small = file("small.csv", "0,0\n1,0\n0,1e-36\n1,1\n");
+  for (const std::string& points : {huge, large, small}) {
+    for (const std::vector<std::string>& option :
+         {std::vector<std::string>{"--keep-outliers"}, {"--simplify", "1"}}) {
+      expect_refusal(hull(joined({points, "--crs", "none"}, option)), 2,
+                     "coordinates as large or as small as these do not go with --simplify");
+    }
+    for (const std::string wanted : {"--one", "--cover"}) {
+      const json feature =
+          json::parse(succeeded(hull({points, "--crs", "none", wanted, "--alpha", "0"})).out);
+      EXPECT_EQ(feature["geometry"]["coordinates"][0][0].size(), 5U) << "the square, as the core scales it";
+    }
   }
+  const std::string usual = file("usual.csv", "0,0\n1e45,0\n0,1e-34\n");
+  EXPECT_EQ(hull({usual, "--crs", "none", "--keep-outliers", "--simplify", "1"}).code, 0);
 }
 
 TEST_F(HullCommandTest, TheResultNeverReplacesThePoints) {

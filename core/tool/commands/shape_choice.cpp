@@ -242,15 +242,14 @@ bool may_be_degrees(const ShapeChoice& choice, const Crs& crs, const Box& box) {
 }
 
 void check_magnitude(std::span<const Point> points) {
-  constexpr double kLargest = 0x1p300;
-  constexpr double kLeastSide = 0x1p-300;
-  const Box box = bounding_box(points);
-  const double largest = std::max({-box.min.x, -box.min.y, box.max.x, box.max.y});
-  const double side = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
-  if (points.empty() || (largest <= kLargest && (side == 0 || side >= kLeastSide))) return;
+  const auto fits = [](double coordinate) {
+    const double magnitude = std::abs(coordinate);
+    return magnitude == 0 || (magnitude >= 0x1p-116 && magnitude <= 0x1p150);
+  };
+  if (std::all_of(points.begin(), points.end(), [&](const Point& p) { return fits(p.x) && fits(p.y); }))
+    return;
   throw std::invalid_argument(
-      "coordinates as large or as small as these do not go with --one, --cover, --simplify and "
-      "--keep-outliers; scale them");
+      "coordinates as large or as small as these do not go with --simplify and --keep-outliers; scale them");
 }
 
 void check_degrees(const Crs& crs, const Box& box) {
@@ -276,7 +275,7 @@ bool spans_date_line(const Box& box) {
 LocatedHulls locate_hulls(const PointFile& file, const ShapeChoice& choice, bool is_grouped, unsigned threads,
                           const OnStep& on_step) {
   HullOptions options = choice.hull;
-  if (options.wanted.one || options.wanted.cover || options.simplify > 0) check_magnitude(file.points);
+  if (options.simplify > 0) check_magnitude(file.points);
   LocatedHulls hulls;
   const Crs crs = chosen_crs(choice, file.crs);
   check_degrees(crs, bounding_box(file.points));

@@ -96,7 +96,7 @@ struct LocatedHulls {
   std::optional<double> latitude;  ///< of the metres
 };
 
-/// Throws std::invalid_argument where products of two coordinates are no usual doubles: the core scales its
+/// Throws std::invalid_argument where orient2d() is not exact for the coordinates: the core scales its
 /// points, but what works on its shapes does not.
 void check_magnitude(std::span<const Point> points);
 
