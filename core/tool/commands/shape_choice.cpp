@@ -324,11 +324,15 @@ void add_limits(const Options& limits, const std::optional<ChosenSizes>& sizes, 
   properties.add("most_size", sizes->most);
 }
 
+void add_extent(std::size_t parts, std::size_t holes, double area, Properties& properties) {
+  properties.add("parts", parts);
+  properties.add("holes", holes);
+  properties.add("area", area);
+}
+
 void add_shape_properties(const GroupHull& hull, Properties& properties) {
   add_limits(hull.limits, hull.sizes, hull.by_outlines, properties);
-  properties.add("parts", hull.shape.size());
-  properties.add("holes", hole_count(hull.shape));
-  properties.add("area", hull.area);
+  add_extent(hull.shape.size(), hole_count(hull.shape), hull.area, properties);
 }
 
 }  // namespace polylidar::tool

@@ -125,6 +125,9 @@ std::string limit_in_words(const std::optional<ChosenSizes>& sizes, bool by_outl
 void add_limits(const Options& limits, const std::optional<ChosenSizes>& sizes, bool by_outlines,
                 Properties& properties);
 
+/// Adds how many parts and holes a shape has, and its area.
+void add_extent(std::size_t parts, std::size_t holes, double area, Properties& properties);
+
 /// Adds the limits that the shape has, its parts, holes and area.
 void add_shape_properties(const GroupHull& hull, Properties& properties);
 

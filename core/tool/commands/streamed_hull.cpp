@@ -211,9 +211,7 @@ std::string geojson(const StreamedHull& hull, const Options& options, const Crs&
   add_limits(options, hull.chosen_sizes, hull.by_outlines, properties);
   std::size_t holes = 0;
   for (const Polygon& polygon : hull.polygons) holes += polygon.holes.size();
-  properties.add("parts", hull.polygons.size());
-  properties.add("holes", holes);
-  properties.add("area", area(hull.polygons));
+  add_extent(hull.polygons.size(), holes, area(hull.polygons), properties);
   return geojson_feature(properties, hull.polygons, geojson_crs(crs)) + "\n";
 }
 
