@@ -491,6 +491,8 @@ TEST_F(HullCommandTest, PlaneCoordinatesWithoutASystemAreTold) {
   EXPECT_FALSE(said(plane, {"--crs", "none"}));
   EXPECT_TRUE(said(plane, {"--stream"}));
   EXPECT_FALSE(said(plane, {"--stream", "--crs", "25832"}));
+  EXPECT_TRUE(said(plane, {"--stream", "--alpha", "20", "--shard", "1/2"}));
+  EXPECT_FALSE(said(plane, {"--stream", "--alpha", "20", "--shard", "1/2", "--crs", "none"}));
   EXPECT_FALSE(said(plane, {"--format", "wkt"})) << "it has no place for a system";
   EXPECT_FALSE(said("x,y\n1,2\n3,2\n1,4\n", {})) << "these may be degrees";
   EXPECT_FALSE(said("x,y\n", {}));
@@ -505,6 +507,7 @@ TEST_F(HullCommandTest, WhatLooksLikeDegreesIsAskedAbout) {
   EXPECT_TRUE(said(berlin, {}));
   EXPECT_TRUE(said(berlin, {"--format", "wkt"}));
   EXPECT_TRUE(said(berlin, {"--stream"}));
+  EXPECT_TRUE(said(berlin, {"--stream", "--shard", "1/2"}));
   EXPECT_TRUE(said("x,y\n" + berlin, {}));
   EXPECT_FALSE(said("lon,lat\n" + berlin, {}));
   EXPECT_FALSE(said(berlin, {"--crs", "EPSG:4326"}));
@@ -688,7 +691,15 @@ TEST_F(HullCommandTest, TheCoordinateSystemIsPassedOn) {
   EXPECT_EQ(crs_of({csv, "--crs", "none"}), "");
   file("utm.prj", R"(PROJCS["Gauss_Kruger_somewhere",GEOGCS["GCS_Bessel"]])");
   EXPECT_EQ(crs_of({csv}), "");
-  expect_says(hull({csv}).err, "the coordinate system has no EPSG number");
+  const std::string nameless_words = "the coordinate system has no EPSG number";
+  const std::string part = (folder() / "part").string();
+  succeeded(hull({csv, "--alpha", "9", "--stream", "--shard", "1/1", "--out", part}));
+  for (const std::vector<std::string>& command :
+       std::vector<std::vector<std::string>>{{"hull", csv}, {"hull", csv, "--stream"}, {"merge", part}}) {
+    expect_says(run_program(joined({POLYLIDAR}, command)).err, nameless_words);
+    const Outcome wkt = succeeded(run_program(joined(joined({POLYLIDAR}, command), {"--format", "wkt"})));
+    EXPECT_FALSE(contains(wkt.err, nameless_words)) << "it has no place for a system";
+  }
   EXPECT_EQ(crs_of({csv, "--crs", "EPSG:31467"}), "urn:ogc:def:crs:EPSG::31467");
   const std::string old = file(
       "old.geojson",

@@ -89,8 +89,6 @@ class FileWork {
   void show(std::size_t file, const std::string& doing);
 
   bool is_done(std::size_t file) const { return outcomes_[file].is_done; }
-  /// Of a file that was done.
-  const Crs& crs(std::size_t file) const { return outcomes_[file].crs; }
   /// The coordinate system of the files that were done: nothing known where there is none of these, no value
   /// where two differ.
   std::optional<Crs> common_crs() const;

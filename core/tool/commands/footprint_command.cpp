@@ -185,21 +185,12 @@ class IndexRun {
     say_notes(surroundings_, command_.inputs, notes_);
     say_which(surroundings_, command_.inputs, lacks_points_, no_points_in_words(command_.shape));
     say_which(surroundings_, command_.inputs, is_empty_, "an empty shape");
-    bool nameless = false;
-    for (std::size_t file = 0; file < features_.size(); ++file) {
-      nameless |= files_.is_done(file) && !output_.can_tell(files_.crs(file));
-    }
-    if (nameless) surroundings_.err << surroundings_.program << ": " << kNamelessCrs << "\n";
-    if (!crs) {
-      surroundings_.err
-          << surroundings_.program << ": the files have different coordinate systems: " << files_.systems()
-          << "; programs that read the index take them for one, so make an index for each, or choose by the "
-             "property crs\n";
-    } else if (lacks_crs(command_.shape, *crs, box_)) {
-      surroundings_.err << surroundings_.program << ": " << kNoCrs << "\n";
-    } else if (may_be_degrees(command_.shape, *crs, box_)) {
-      surroundings_.err << surroundings_.program << ": " << kMayBeDegrees << "\n";
-    }
+    const std::string note =
+        crs ? crs_note(command_.shape, *crs, box_, output_)
+            : "the files have different coordinate systems: " + files_.systems() +
+                  "; programs that read the index take them for one, so make an index for each, or choose by "
+                  "the property crs";
+    if (!note.empty()) surroundings_.err << surroundings_.program << ": " << note << "\n";
     return code;
   }
 
@@ -345,8 +336,7 @@ class UnionRun {
     add_up();
     find_plane();
     const StreamedHull hull = stream_by_some_limit();
-    const std::string limit = limit_in_words(hull.chosen_sizes, hull.by_outlines, {});
-    if (!limit.empty()) say(limit);
+    say(limit_in_words(hull.chosen_sizes, hull.by_outlines, {}));
     output_.write(geojson_collection(std::vector{feature(hull)}, geojson_crs(crs_)), crs_, status_);
     const ExitCode code = files_.summary("the union");
     say_notes(surroundings_, command_.inputs, notes_);
@@ -355,9 +345,7 @@ class UnionRun {
       lacks_points.push_back(files_.is_done(file) && facts_[file].points == 0);
     }
     say_which(surroundings_, command_.inputs, lacks_points, no_points_in_words(command_.shape));
-    if (!output_.can_tell(crs_)) say(std::string(kNamelessCrs));
-    if (lacks_crs(command_.shape, crs_, all_.bounds)) say(std::string(kNoCrs));
-    if (may_be_degrees(command_.shape, crs_, all_.bounds)) say(std::string(kMayBeDegrees));
+    say(crs_note(command_.shape, crs_, all_.bounds, output_));
     return code;
   }
 
@@ -375,7 +363,10 @@ class UnionRun {
     }
   }
 
-  void say(const std::string& text) { status_.say(surroundings_.program + ": " + text); }
+  /// Nothing if the text is empty.
+  void say(const std::string& text) {
+    if (!text.empty()) status_.say(surroundings_.program + ": " + text);
+  }
 
   /// Reads a file to its end.
   Crs look_at(std::size_t place, MemoryShare& memory) {

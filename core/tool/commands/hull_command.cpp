@@ -80,7 +80,10 @@ class HullRun {
     }
   }
 
-  void say(const std::string& text) { status_.say(surroundings_.program + ": " + text); }
+  /// Nothing if the text is empty.
+  void say(const std::string& text) {
+    if (!text.empty()) status_.say(surroundings_.program + ": " + text);
+  }
 
   void show(const std::string& doing) {
     throw_if_interrupted();
@@ -94,7 +97,7 @@ class HullRun {
       show(reading(bytes, size));
     };
     file_ = read_point_file(command_.inputs.front(), options);
-    if (!file_.note.empty()) say(file_.note);
+    say(file_.note);
     crs_ = chosen_crs(command_.shape, file_.crs);
     are_numbers_ = are_numbers(file_.labels);
   }
@@ -104,10 +107,8 @@ class HullRun {
     show("triangulating " + std::to_string(file_.points.size()) + " points");
     hulls_ = locate_hulls(file_, command_.shape, !command_.by.empty(), thread_count(command_.shape),
                           [&](const std::string& doing) { show(doing); });
-    if (!output_.can_tell(crs_)) say(std::string(kNamelessCrs));
     const Box box = bounding_box(file_.points);
-    if (output_.has_features() && lacks_crs(command_.shape, crs_, box)) say(std::string(kNoCrs));
-    if (may_be_degrees(command_.shape, crs_, box)) say(std::string(kMayBeDegrees));
+    say(crs_note(command_.shape, crs_, box, output_));
     if (!hulls_.latitude) return;
     say("longitude and latitude: lengths are in metres, true at latitude " +
         shortest(std::round(*hulls_.latitude * 100) / 100 + 0.0) +
@@ -117,8 +118,7 @@ class HullRun {
 
   /// What was chosen, or why there is nothing.
   void explain(const GroupHull& hull) {
-    const std::string limit = limit_in_words(hull.sizes, hull.by_outlines, command_.shape.hull.wanted);
-    if (!limit.empty()) say(limit);
+    say(limit_in_words(hull.sizes, hull.by_outlines, command_.shape.hull.wanted));
     if (!hull.shape.empty()) return;
     if (hull.extracted > 0) {
       return say("no polygon is left by --min-area and --min-triangles, so the shape is empty");

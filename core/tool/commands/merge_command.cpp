@@ -50,6 +50,9 @@ ExitCode merge(const MergeCommand& command, const Surroundings& surroundings) {
   const StreamedHull hull = concave_hull_of_shards(shards, thread_count(command.shape));
   throw_if_interrupted();
   write_streamed_hull(hull, shards.front().options, crs, output, surroundings.program, status);
+  if (!output.can_tell(crs)) {
+    status.say(surroundings.program + ": " + std::string(kNamelessCrs) + " where the shards are made");
+  }
   return kExitOk;
 }
 

@@ -232,13 +232,14 @@ Crs chosen_crs(const ShapeChoice& choice, const Crs& of_file) {
                            "' names no coordinate system; give it as EPSG:25832, or none");
 }
 
-bool lacks_crs(const ShapeChoice& choice, const Crs& crs, const Box& box) {
+std::string unknown_crs_note(const ShapeChoice& choice, const Crs& crs, const Box& box, bool has_crs) {
   const bool is_empty = box.min.x > box.max.x;
-  return choice.crs.empty() && !crs.is_given && !is_empty && !could_be_degrees(box);
-}
-
-bool may_be_degrees(const ShapeChoice& choice, const Crs& crs, const Box& box) {
-  return choice.crs.empty() && !crs.is_given && look_like_degrees(box);
+  if (!choice.crs.empty() || crs.is_given || is_empty) return "";
+  if (look_like_degrees(box)) return "if the points are longitudes and latitudes, give --crs EPSG:4326";
+  if (!has_crs || could_be_degrees(box)) return "";
+  return "the points name no coordinate system, and most programs take a result without one for longitude "
+         "and "
+         "latitude; --crs gives it, as in --crs EPSG:25832, and --crs none says that there is none";
 }
 
 void check_magnitude(std::span<const Point> points) {

@@ -50,25 +50,10 @@ std::string passing(const StreamProgress& progress, std::optional<std::uint64_t>
 /// that is none.
 Crs chosen_crs(const ShapeChoice& choice, const Crs& of_file);
 
-/// What is said where the system of a file has no number, as GeoJSON has no other way to name it.
-inline constexpr std::string_view kNamelessCrs =
-    "the coordinate system has no EPSG number that is known here, so that the result names none; --crs gives "
-    "it one";
-
-/// What is said where no system is known of coordinates that are no longitudes and latitudes.
-inline constexpr std::string_view kNoCrs =
-    "the points name no coordinate system, and most programs take a result without one for longitude and "
-    "latitude; --crs gives it, as in --crs EPSG:25832, and --crs none says that there is none";
-
-/// Whether kNoCrs is to be said of points in `box`.
-bool lacks_crs(const ShapeChoice& choice, const Crs& crs, const Box& box);
-
-/// What is said where no system is known of coordinates that look like longitudes and latitudes.
-inline constexpr std::string_view kMayBeDegrees =
-    "if the points are longitudes and latitudes, give --crs EPSG:4326";
-
-/// Whether kMayBeDegrees is to be said of points in `box`.
-bool may_be_degrees(const ShapeChoice& choice, const Crs& crs, const Box& box);
+/// What is to be said of points in `box` whose coordinate system is not known: that the result names none, if
+/// it would have one (`has_crs`) and the coordinates are no longitudes and latitudes, or that they look like
+/// these; empty: nothing.
+std::string unknown_crs_note(const ShapeChoice& choice, const Crs& crs, const Box& box, bool has_crs);
 
 /// Throws ConfigurationError where a system is longitude and latitude, and a coordinate in `box` cannot be
 /// one, also where GeoJSON names no system, and where they are in another unit than degrees: as metres the

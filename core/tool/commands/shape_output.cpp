@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "tool/commands/shape_choice.hpp"
 #include "tool/points/point_file.hpp"
 #include "tool/program/configuration_error.hpp"
 #include "tool/program/letter_case.hpp"
@@ -122,7 +123,12 @@ bool ShapeOutput::holds_one_type() const {
 }
 
 bool ShapeOutput::can_tell(const Crs& crs) const {
-  return !crs.is_given || crs.epsg > 0 || (by_gdal_ && !crs.wkt.empty());
+  return !has_features() || !crs.is_given || crs.epsg > 0 || (by_gdal_ && !crs.wkt.empty());
+}
+
+std::string crs_note(const ShapeChoice& choice, const Crs& crs, const Box& box, const ShapeOutput& output) {
+  if (!output.can_tell(crs)) return std::string(kNamelessCrs);
+  return unknown_crs_note(choice, crs, box, output.has_features());
 }
 
 void ShapeOutput::write(std::string text, const Crs& crs, StatusLine& status) const {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tool/commands/commands.hpp"
@@ -37,7 +38,8 @@ class ShapeOutput {
   bool has_features() const { return text_format_ == "geojson"; }
   /// Whether all features are of one type, as in a Shapefile.
   bool holds_one_type() const;
-  /// Whether the result says in which coordinate system it is, or there is nothing to say.
+  /// Whether the result says in which coordinate system it is, as far as its format has a place for it, or
+  /// there is nothing to say.
   bool can_tell(const Crs& crs) const;
 
   /// The whole result, or nothing of it; `status` shows that, and says what is lost in the format. Throws
@@ -57,5 +59,13 @@ class ShapeOutput {
   std::optional<VectorOutput> by_gdal_;
   std::vector<std::string> replaced_;  ///< files that the result takes the place of, be they there or not
 };
+
+/// What is said where a result cannot tell its system, as GeoJSON names one by its number only.
+inline constexpr std::string_view kNamelessCrs =
+    "the coordinate system has no EPSG number that is known here, so that the result names none; --crs gives "
+    "it one";
+
+/// What is to be said of the coordinate system of points in `box`; empty: nothing.
+std::string crs_note(const ShapeChoice& choice, const Crs& crs, const Box& box, const ShapeOutput& output);
 
 }  // namespace polylidar::tool

@@ -89,9 +89,7 @@ class StreamRun {
         sources(command_.inputs.size() == 1 ? parts_for(core_.threads) : 1), core_, options);
     const Crs crs = crs_.value_or(Crs());
     write_streamed_hull(hull, core_, crs, output, surroundings_.program, status_);
-    if (!output.can_tell(crs)) say_once(std::string(kNamelessCrs));
-    if (output.has_features() && lacks_crs(command_.shape, crs, hull.box)) say_once(std::string(kNoCrs));
-    if (may_be_degrees(command_.shape, crs, hull.box)) say_once(std::string(kMayBeDegrees));
+    say(crs_note(command_.shape, crs, hull.box, output));
     return kExitOk;
   }
 
@@ -123,7 +121,10 @@ class StreamRun {
                 std::to_string(shard->count) + ": " + std::to_string(part.points.size()) + " of " +
                 std::to_string(part.source_points) + " points are near the outline and in its band");
     if (!shape.out.empty()) status_.show("writing " + shape.out);
-    write_shard_file(shape.out, {part, crs_.value_or(Crs())});
+    const Crs crs = crs_.value_or(Crs());
+    write_shard_file(shape.out, {part, crs});
+    // Not known any more when the shards are merged: whether somebody gave --crs none.
+    say(unknown_crs_note(shape, crs, part.box, true));
     return kExitOk;
   }
 
@@ -158,7 +159,7 @@ class StreamRun {
       const auto on_read = [this, &input](std::size_t part, const PointFile& file) {
         if (part > 0) return;
         check_crs(input, chosen_crs(command_.shape, file.crs));
-        if (!file.note.empty()) say_once(input + ": " + file.note);
+        if (!file.note.empty()) say(input + ": " + file.note);
       };
       for (PointSource& part : point_sources(input, options, most_parts, kept[i], on_read)) {
         sources.push_back(std::move(part));
@@ -181,9 +182,10 @@ class StreamRun {
     crs_ = crs;
   }
 
-  void say_once(const std::string& text) {
+  /// Each text once, and an empty one never.
+  void say(const std::string& text) {
     const std::lock_guard lock(mutex_);
-    if (said_.insert(text).second) status_.say(surroundings_.program + ": " + text);
+    if (!text.empty() && said_.insert(text).second) status_.say(surroundings_.program + ": " + text);
   }
 
   StreamOptions stream_options() {
