@@ -1066,10 +1066,13 @@ TEST_F(ShardTest, ShardsSayWhatTheyCannotDo) {
       hull({npy, "--alpha", "1", "--stream", "--shard", "1/2", "--out", (folder() / "a.gpkg").string()}), 2,
       "are for 'polylidar merge'");
   EXPECT_EQ(names_in_folder(), before);
-  file("west.prj", R"(PROJCS["a",GEOGCS["b"],AUTHORITY["EPSG","25832"]])");
+  const std::string beside = file("west.prj", R"(PROJCS["a",GEOGCS["b"],AUTHORITY["EPSG","25832"]])");
+  const std::string west = file("west.csv", "0,0\n");
+  expect_refusal(hull({west, "--alpha", "1", "--stream", "--shard", "1/2", "--out", beside}), 2,
+                 "west.prj, which is read with " + west);
+  EXPECT_TRUE(read_text(beside).starts_with("PROJCS"));
   file("east.prj", R"(PROJCS["a",GEOGCS["b"],AUTHORITY["EPSG","25833"]])");
-  const std::vector<std::string> tiles = {file("west.csv", "0,0\n"), file("east.csv", "1,1\n"), "--alpha",
-                                          "1", "--stream"};
+  const std::vector<std::string> tiles = {west, file("east.csv", "1,1\n"), "--alpha", "1", "--stream"};
   expect_refusal(hull(tiles), 2, "the files have different coordinate systems");
 }
 

@@ -38,6 +38,11 @@ std::string format_of(const ShapeChoice& choice) {
                            std::string(kKnownEndings));
 }
 
+[[noreturn]] void fail_as_read(const std::string& out, const std::string& lost, const std::string& input) {
+  throw ConfigurationError("--out " + out + " would replace " + lost + ", which is read with " + input +
+                           "; give another file");
+}
+
 }  // namespace
 
 ShapeOutput::ShapeOutput(const ShapeChoice& choice, const Surroundings& surroundings)
@@ -95,9 +100,7 @@ void ShapeOutput::check_is_no_part_of(const std::string& input) const {
       return std::filesystem::equivalent(file, part, error);
     });
   });
-  if (lost == there.end()) return;
-  throw ConfigurationError("--out " + path_ + " would replace " + *lost + ", which is read with " + input +
-                           "; give another file");
+  if (lost != there.end()) fail_as_read(path_, *lost, input);
 }
 
 bool names_polygons(const std::string& path) {
@@ -107,11 +110,12 @@ bool names_polygons(const std::string& path) {
 
 void check_is_none_of(const std::string& out, std::span<const std::string> inputs) {
   std::error_code error;
+  if (!std::filesystem::is_regular_file(out, error)) return;
   for (const std::string& input : inputs) {
-    const std::string read = input == "-" ? "/dev/stdin" : input;
-    if (std::filesystem::is_regular_file(out, error) && std::filesystem::equivalent(out, read, error)) {
+    if (std::filesystem::equivalent(out, input == "-" ? "/dev/stdin" : input, error)) {
       throw ConfigurationError("--out " + out + " would replace the points that are read; give another file");
     }
+    if (std::filesystem::equivalent(out, projection_file_beside(input), error)) fail_as_read(out, out, input);
   }
 }
 

@@ -19,7 +19,7 @@ namespace polylidar::tool {
 /// Whether the ending of `path` is that of a format of polygons that is written here.
 bool names_polygons(const std::string& path);
 
-/// Throws ConfigurationError where `out` is one of the files that are read.
+/// Throws ConfigurationError where `out` is one of the files that are read, or the .prj file beside one.
 void check_is_none_of(const std::string& out, std::span<const std::string> inputs);
 
 /// What --format, --out and --out-layer ask for.
