@@ -358,6 +358,13 @@ TEST_F(HullCommandTest, TheEndingSaysTheFormatOrNothing) {
   }
 }
 
+TEST_F(HullCommandTest, WhatGdalWritesIsNotStandardOutput) {
+  for (const std::string out : {"-", "/dev/stdout"}) {
+    expect_refusal(hull({points_file(), "--format", "gdal:GPKG", "--out", out}), 2,
+                   "--format gdal:GPKG needs a file or a database; give it by --out");
+  }
+}
+
 TEST_F(HullCommandTest, OutputThatCannotBeWritten) {
   expect_refusal(hull({points_file(), "--alpha", "1", "--out", "/nowhere/hull.json"}), 1,
                  "cannot write /nowhere/hull.json");

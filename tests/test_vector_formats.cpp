@@ -248,8 +248,10 @@ TEST_F(VectorFormatsTest, FilesOfPolygons) {
 
 TEST_F(VectorFormatsTest, OutliersBesidePolygonsNeedAFormatThatHoldsBoth) {
   expect_refusal(run({"hull", csv(), "--keep-outliers", "-o", path("out.shp")}), 2, "name it .gpkg");
-  expect_refusal(run({"hull", csv(), "--keep-outliers", "-o", path("o"), "--format", "gdal:ESRI Shapefile"}),
-                 2, "name it .gpkg");
+  for (const std::string driver : {"gdal:ESRI Shapefile", "gdal:esri shapefile"}) {
+    expect_refusal(run({"hull", csv(), "--keep-outliers", "-o", path("o"), "--format", driver}), 2,
+                   "name it .gpkg");
+  }
   EXPECT_EQ(result({"hull", csv(), "--alpha", "0.02", "--keep-outliers", "-o", path("out.gpkg")}), "");
   EXPECT_EQ(layer_of(path("out.gpkg")).features.size(), 2U);
 }

@@ -60,7 +60,7 @@ ShapeOutput::ShapeOutput(const ShapeChoice& choice, const Surroundings& surround
     check_output_place(path_);
     return;
   }
-  if (path_.empty()) {
+  if (is_standard_output(path_)) {
     throw ConfigurationError("--format " + text_format_ + " needs a file or a database; give it by --out");
   }
   if (formats_ == nullptr) throw ConfigurationError(path_ + ": " + kNoGdalToWrite);
@@ -123,7 +123,7 @@ bool ShapeOutput::holds_one_type() const {
   if (!by_gdal_) return false;
   const std::string ending = ending_of(path_);
   return by_gdal_->driver.empty() ? ending == ".shp" || ending == ".shz"
-                                  : by_gdal_->driver == "ESRI Shapefile";
+                                  : equal_in_any_case(by_gdal_->driver, "ESRI Shapefile");
 }
 
 bool ShapeOutput::can_tell(const Crs& crs) const {

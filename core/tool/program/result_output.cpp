@@ -32,12 +32,11 @@ int open_file(const std::string& file, int flags, const std::string& name) {
   return descriptor;
 }
 
-/// Also by its device's name: a file that it was redirected to gets the result where it stands.
+}  // namespace
+
 bool is_standard_output(const std::string& path) {
   return path.empty() || path == "-" || path == "/dev/stdout";
 }
-
-}  // namespace
 
 fs::path behind_links(const fs::path& path) {
   constexpr int kMostLinks = 40;

@@ -13,8 +13,12 @@ std::filesystem::path behind_links(const std::filesystem::path& path);
 /// Beside `target`, of what becomes it when it is whole; of this process alone.
 std::filesystem::path unfinished_path(const std::filesystem::path& target);
 
+/// Whether `path` is standard output: empty, - or its device, as a file that it was redirected to gets the
+/// result where it stands.
+bool is_standard_output(const std::string& path);
+
 /// Throws std::runtime_error when no file can be written at `path`, which would otherwise be known only when
-/// the result is there. Nothing to check for standard output: an empty path, or -.
+/// the result is there. Nothing to check for standard output.
 void check_output_place(const std::string& path);
 
 /// Gives an open file the mode and, where that is allowed, the owner of the file that it takes the place of,
