@@ -333,7 +333,9 @@ TEST_F(FootprintCommandTest, UsageErrors) {
   expect_refusal(footprint({whole, folder_.path().string() + "/./whole.las"}), 2, "whole.las is given twice");
   expect_refusal(footprint({whole, "--union", whole}), 2, "whole.las is given twice");
   expect_refusal(footprint({whole, "-o", (folder_.path() / "index.csv").string()}), 2,
-                 "index.csv has the ending of a file of points");
+                 "index.csv has the ending of a file of points; name it .geojson, or say with --format");
+  expect_refusal(footprint({whole, "-o", (folder_.path() / "index.topojson").string()}), 2,
+                 "names no format; name it .geojson, or say with --format");
   expect_refusal(footprint({whole, "-o", (folder_.path() / "index.wkt").string()}), 2,
                  "a footprint has properties, which wkt has no place for");
   expect_refusal(footprint({whole, "--union", "-o", (folder_.path() / "union.svg").string()}), 2,

@@ -352,6 +352,8 @@ TEST_F(HullCommandTest, TheEndingSaysTheFormatOrNothing) {
   EXPECT_EQ(hull({points_file(), "--out", "-"}).out, hull({points_file()}).out);
   for (const std::string name : {"hull.geojson.gz", "hull.topojson"}) {
     const std::string out = (folder() / name).string();
+    expect_refusal(hull({points_file(), "--stream", "--out", out}), 2,
+                   "names no format; name it .geojson, .wkt or .wkb, or say with --format");
     expect_refusal(hull({points_file(), "--out", out}), 2,
                    "names no format; name it .geojson, .wkt, .wkb or .svg");
     EXPECT_EQ(hull({points_file(), "--format", "wkt", "--out", out}).code, 0);
@@ -1120,6 +1122,8 @@ TEST_F(ShardTest, MergeSaysWhatDoesNotFitTogether) {
   }
   expect_refusal(merge({made[0], "--format", "svg"}), 2, "'svg' is none of auto,geojson,wkt,wkb");
   expect_refusal(merge({made[0], "--out", (folder() / "a.svg").string()}), 2, "svg shows all points");
+  expect_refusal(merge({made[0], "--out", (folder() / "a.las").string()}), 2,
+                 "has the ending of a file of points; name it .geojson, .wkt or .wkb, or say with --format");
   expect_refusal(merge({}), 2, "PART is required");
   EXPECT_FALSE(fs::exists(out));
   EXPECT_EQ(names_in_folder().size(), before.size() + 2) << "the files of this table, and no other";

@@ -159,7 +159,7 @@ class IndexRun {
       : command_(command),
         surroundings_(surroundings),
         status_(surroundings.err, surroundings.terminal, quiet_time(surroundings.terminal)),
-        output_(command.shape, surroundings),
+        output_(command.shape, surroundings, kFormatsWithProperties),
         options_(interruptible(point_options(command.shape, surroundings))),
         files_(command.inputs, surroundings, status_),
         features_(command.inputs.size()),
@@ -319,7 +319,7 @@ class UnionRun {
       : command_(command),
         surroundings_(surroundings),
         status_(surroundings.err, surroundings.terminal, quiet_time(surroundings.terminal)),
-        output_(command.shape, surroundings),
+        output_(command.shape, surroundings, kFormatsWithProperties),
         options_(interruptible(point_options(command.shape, surroundings))),
         core_(command.shape.hull.core),
         files_(command.inputs, surroundings, status_),
@@ -582,7 +582,7 @@ void add_footprint_options(CLI::App& app, FootprintCommand& command) {
       "--union", command.is_union,
       "Make one shape of all files together, instead of one for each file; not with --one, --cover and "
       "--min-triangles");
-  add_format_option(app, command.shape, {"auto", "geojson"});
+  add_format_option(app, command.shape, kFormatsWithProperties);
   add_shape_options(app, command.shape);
   add_memory_option(app, command.shape, "The most memory");
 }

@@ -32,7 +32,7 @@ class HullRun {
       : command_(command),
         surroundings_(surroundings),
         status_(surroundings.err, surroundings.terminal, quiet_time(surroundings.terminal)),
-        output_(command.shape, surroundings) {}
+        output_(command.shape, surroundings, kAllFormats) {}
 
   ExitCode run() {
     check_options();
@@ -252,7 +252,7 @@ void add_hull_options(CLI::App& app, HullCommand& command) {
       "--by", command.by,
       "Make one shape for each value of this column of a text file or a layer, by its name or its "
       "number from 1; of this property of GeoJSON; for a LAS file: classification, return or point_source");
-  add_format_option(app, command.shape, {"auto", "geojson", "wkt", "wkb", "svg"});
+  add_format_option(app, command.shape, kAllFormats);
   app.add_flag("--keep-outliers", command.keep_outliers,
                "Also write the points outside the shape, as a MultiPoint (geojson, or a format of GDAL but "
                "Shapefile)");

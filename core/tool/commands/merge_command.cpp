@@ -35,7 +35,7 @@ Crs read_parts(const std::vector<std::string>& paths, std::vector<StreamShard>& 
 }
 
 ExitCode merge(const MergeCommand& command, const Surroundings& surroundings) {
-  const ShapeOutput output(command.shape, surroundings);
+  const ShapeOutput output(command.shape, surroundings, kFormatsWithoutPoints);
   if (output.text_format() == "svg") {
     throw ConfigurationError(
         "svg shows all points, which parts do not have; write the polygons as geojson, wkt or wkb");
@@ -75,7 +75,7 @@ void add_merge_options(CLI::App& app, MergeCommand& command) {
       "the same\n"
       "files and options on one machine.");
   app.add_option("PART", command.inputs, "The parts")->required();
-  add_format_option(app, command.shape, {"auto", "geojson", "wkt", "wkb"});
+  add_format_option(app, command.shape, kFormatsWithoutPoints);
   add_output_options(app, command.shape);
 }
 

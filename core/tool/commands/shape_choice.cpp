@@ -146,11 +146,11 @@ void add_output_options(CLI::App& app, ShapeChoice& choice) {
                  "Name of the layer that GDAL writes, instead of the file's name");
 }
 
-void add_format_option(CLI::App& app, ShapeChoice& choice, const std::vector<std::string>& formats) {
-  std::string listed;
-  for (const std::string& format : formats) listed += (listed.empty() ? "" : ",") + format;
+void add_format_option(CLI::App& app, ShapeChoice& choice, Formats formats) {
+  std::string listed = "auto";
+  for (const std::string_view format : formats) listed += "," + std::string(format);
   const auto check = [formats, listed](const std::string& text) {
-    const bool is_known = std::find(formats.begin(), formats.end(), text) != formats.end();
+    const bool is_known = text == "auto" || std::find(formats.begin(), formats.end(), text) != formats.end();
     return is_known || text.starts_with("gdal:") ? ""
                                                  : "'" + text + "' is none of " + listed + ",gdal:DRIVER";
   };

@@ -1,8 +1,11 @@
 // What the commands have in common: options, and what becomes of them.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,8 +26,16 @@ void add_output_options(CLI::App& app, ShapeChoice& choice);
 /// Adds --memory, whose help begins with `when`.
 void add_memory_option(CLI::App& app, ShapeChoice& choice, const std::string& when);
 
-/// Adds --format, which takes these words and the drivers of GDAL.
-void add_format_option(CLI::App& app, ShapeChoice& choice, const std::vector<std::string>& formats);
+/// Formats that are written here, by the names that --format has for them.
+using Formats = std::span<const std::string_view>;
+inline constexpr std::array<std::string_view, 4> kAllFormats = {"geojson", "wkt", "wkb", "svg"};
+/// Those that show no points beside polygons.
+inline constexpr Formats kFormatsWithoutPoints = Formats(kAllFormats).first(3);
+/// Those that have properties.
+inline constexpr Formats kFormatsWithProperties = Formats(kAllFormats).first(1);
+
+/// Adds --format, which takes these words, auto, and the drivers of GDAL.
+void add_format_option(CLI::App& app, ShapeChoice& choice, Formats formats);
 
 /// Which points are read, with what. Throws ConfigurationError for classes or a window that are none.
 PointFileOptions point_options(const ShapeChoice& choice, const Surroundings& surroundings);

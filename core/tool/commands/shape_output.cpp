@@ -8,7 +8,6 @@
 #include <system_error>
 #include <utility>
 
-#include "tool/commands/shape_choice.hpp"
 #include "tool/points/point_file.hpp"
 #include "tool/program/configuration_error.hpp"
 #include "tool/program/letter_case.hpp"
@@ -20,22 +19,29 @@ namespace {
 constexpr std::string_view kGdal = "gdal:";
 /// The most that is told of what a format lacks.
 constexpr std::size_t kMostNotes = 10;
-constexpr std::string_view kKnownEndings =
-    "name it .geojson, .wkt, .wkb or .svg, or say with --format what it is";
 
 std::string ending_of(const std::string& path) {
   return lower_case(std::filesystem::path(path).extension().string());
 }
 
+/// "name it .geojson, .wkt or .wkb", and what else helps.
+std::string right_names(Formats formats) {
+  std::string endings;
+  for (std::size_t f = 0; f < formats.size(); ++f) {
+    endings += (f == 0 ? "." : f + 1 < formats.size() ? ", ." : " or .") + std::string(formats[f]);
+  }
+  return "name it " + endings + ", or say with --format what it is";
+}
+
 /// --format, or what the output's name says.
-std::string format_of(const ShapeChoice& choice) {
+std::string format_of(const ShapeChoice& choice, Formats offered) {
   if (choice.format != "auto") return choice.format;
   if (is_for_gdal(choice.out)) return std::string(kGdal);
   const std::string ending = ending_of(choice.out);
   if (names_polygons(choice.out)) return ending == ".json" ? "geojson" : ending.substr(1);
   if (ending.empty() || names_points(choice.out)) return "geojson";  // the latter is refused, see below
   throw ConfigurationError("--out " + choice.out + ": the ending " + ending + " names no format; " +
-                           std::string(kKnownEndings));
+                           right_names(offered));
 }
 
 [[noreturn]] void fail_as_read(const std::string& out, const std::string& lost, const std::string& input) {
@@ -45,13 +51,14 @@ std::string format_of(const ShapeChoice& choice) {
 
 }  // namespace
 
-ShapeOutput::ShapeOutput(const ShapeChoice& choice, const Surroundings& surroundings)
+ShapeOutput::ShapeOutput(const ShapeChoice& choice, const Surroundings& surroundings, Formats formats)
     : program_(surroundings.program),
       path_(choice.out),
+      offered_(formats),
       input_format_(point_format_of(choice.input_format).value_or(PointFormat::kAuto)),
       formats_(surroundings.vector_formats),
       is_format_given_(choice.format != "auto"),
-      text_format_(format_of(choice)),
+      text_format_(format_of(choice, formats)),
       replaced_{path_} {
   if (!text_format_.starts_with(kGdal)) {
     if (!choice.out_layer.empty()) {
@@ -74,7 +81,7 @@ void ShapeOutput::check_against(std::span<const std::string> inputs) const {
   for (const std::string& input : inputs) check_is_no_part_of(input);
   if (!is_format_given_ && names_points(path_)) {
     throw ConfigurationError("--out " + path_ + " has the ending of a file of points; " +
-                             std::string(kKnownEndings));
+                             right_names(offered_));
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tool/commands/commands.hpp"
+#include "tool/commands/shape_choice.hpp"
 #include "tool/gdal/vector_formats.hpp"
 #include "tool/points/crs.hpp"
 #include "tool/points/point_file.hpp"
@@ -25,8 +26,9 @@ void check_is_none_of(const std::string& out, std::span<const std::string> input
 /// What --format, --out and --out-layer ask for.
 class ShapeOutput {
  public:
-  /// Throws ConfigurationError where that cannot be, std::runtime_error where no file can be written there.
-  ShapeOutput(const ShapeChoice& choice, const Surroundings& surroundings);
+  /// `formats` are those that a message offers. Throws ConfigurationError where the output cannot be,
+  /// std::runtime_error where no file can be written there.
+  ShapeOutput(const ShapeChoice& choice, const Surroundings& surroundings, Formats formats);
 
   /// Throws ConfigurationError where the result would replace one of the files that are read, a part of one
   /// or what says its coordinate system, or look like a file of points.
@@ -52,6 +54,7 @@ class ShapeOutput {
 
   std::string program_;
   std::string path_;
+  Formats offered_;
   PointFormat input_format_;
   const VectorFormats* formats_;
   bool is_format_given_;

@@ -78,7 +78,7 @@ class StreamRun {
   }
 
   ExitCode make_hull() {
-    const ShapeOutput output(command_.shape, surroundings_);
+    const ShapeOutput output(command_.shape, surroundings_, kFormatsWithoutPoints);
     if (output.text_format() == "svg") refuse("--stream", "--format svg");
     output.check_against(command_.inputs);
     // The parts of one file, or several files, are read at the same time.
