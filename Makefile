@@ -2,7 +2,7 @@
 #
 #   NATIVE=1     compile for this machine's processor instead of generic x86-64
 #   SKIP_DEPS=1  install nothing: everything needed is there already (distributions without apt-get)
-#   JOBS=N       build and test with N processes
+#   JOBS=N       build with N processes, and test with N + 2
 #   TABLE=NAME   only this experiment in "make bench": rgbd, states, alphabet, random or steps
 #   SECONDS=N    how long "make fuzz" searches with each target
 #   SUITE=NAME   the Debian of "make test-fresh": bookworm (12) or trixie (13)
@@ -121,7 +121,7 @@ define drawn
 { [ -d $(1) ] || { echo "error: there is no folder $(1): name that of a run, as in RUN=results/reference." >&2; exit 2; }; } && \
 rm -rf $(2) && mkdir -p $(call drawn_into,$(1)) && build/hullbench report $(1) --out $(2) >/dev/null && \
 { build/hullbench league $(1) --all-cases --csv $(2)/cases.csv >/dev/null || true; } && \
-for extra in suite.json tables core.json league.json league.csv tune.json tune.json.xz; do [ ! -e $(1)/$$extra ] || cp -r $(1)/$$extra $(2); done && \
+for extra in suite.json tables core.json league.json league.csv tune.json tune.json.xz; do [ ! -e $(1)/$$extra ] || cp -r $(1)/$$extra $(2) || exit 1; done && \
 { [ ! -e $(1)/report.html.gz ] || zcat $(1)/report.html.gz >$(2)/report.html; } && \
 { [ ! -e $(1)/league/suite.json ] || build/hullbench league $(1)/league --csv $(2)/league.csv >/dev/null; }
 endef
@@ -318,7 +318,7 @@ js-bench: js ## measure the npm package beside concaveman and delaunator, and wr
 	@node core/js/bench.mjs build-js/polylidar --write core/js/README.md
 
 clean: ## remove what was built; results stay
-	@rm -rf build build-clang build-sanitize build-sanitize-threads build-fuzz build-gate build-js build-python build-tool
+	@rm -rf build build-clang build-sanitize build-sanitize-threads build-fuzz build-gate build-js build-python build-tool build-core
 	@echo "==> removed build and build-*"
 
 clean-legacy: ## remove the paper's PostGIS

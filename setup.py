@@ -34,6 +34,6 @@ with ParallelCompile("POLYLIDAR_JOBS"):
     setup(
         version=version,
         ext_modules=[extension],
-        # Not build/, which is CMake's.
-        options={"build": {"build_base": "build-python"}},
+        # Not build/, which is CMake's; and all anew, as setuptools looks at no header, flag or version.
+        options={"build": {"build_base": "build-python", "force": True}},
     )

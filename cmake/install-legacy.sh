@@ -118,7 +118,7 @@ start_program() {
 check_libraries() {
   local strange
   strange=$("$work/root$loader" --library-path "$work/root$libraries:$work/root/usr$libraries" --list "$1" |
-    awk -v root="$work/root/" '/=>/ && index($3, root) != 1 { print $1 }')
+    awk -v root="$work/root/" '/=>/ { name = $1; sub(/^.*=> /, ""); if (index($0, root) != 1) print name }')
   [ -z "$strange" ] || fail 1 "the packages lack libraries that $(basename "$1") needs: ${strange//$'\n'/ }."
 }
 

@@ -29,8 +29,10 @@ def builds_of(file: Path) -> list[tuple[str | None, bool | None]]:
 
 
 def head() -> str:
-    done = subprocess.run(["git", "rev-parse", "HEAD"], cwd=PROJECT, capture_output=True, text=True)
-    if done.returncode != 0:
+    asked = ["git", "rev-parse", "HEAD", "--show-prefix"]
+    done = subprocess.run(asked, cwd=PROJECT, capture_output=True, text=True)
+    # A prefix: the project lies in another one's checkout.
+    if done.returncode != 0 or len(done.stdout.split()) != 1:
         raise Refusal("this is no git checkout, so no revision can be named for the records; use a clone")
     return done.stdout.strip()
 

@@ -2,6 +2,7 @@
 # check_evaluate.sh PROJECT: what evaluate.sh asks of the program and what it makes of its exit codes, with a program that
 # only says how it was called.
 set -euo pipefail
+unset OMP_NUM_THREADS OMP_THREAD_LIMIT # else nproc obeys them
 
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT

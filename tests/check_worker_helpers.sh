@@ -86,7 +86,7 @@ def run(points):
 gc.callbacks.append(tell)
 hullbench_worker.serve(version="1", run=run)
 PYTHON
-  requests 4 2 '{}' | "${PYTHON:-/usr/bin/python3}" "$folder/worker.py" >"$folder/replies" 2>"$folder/events"
+  requests 4 2 '{}' | /usr/bin/python3 "$folder/worker.py" >"$folder/replies" 2>"$folder/events"
   local events
   events=$(sed -n '/run/,$p' "$folder/events" | tr '\n' ' ')
   [ "$events" = "run collect run " ] || fail "expected a collection between two runs only, not '$events'"

@@ -1,5 +1,3 @@
-find_package(Boost REQUIRED)
-find_package(nlohmann_json REQUIRED)
 find_package(PNG REQUIRED)
 
 hullbench_test(test_datasets
@@ -26,7 +24,7 @@ hullbench_test(test_datasets
   LABELS datasets)
 foreach(golden IN ITEMS golden_hashes golden_stress)
   add_test(NAME datasets.${golden}
-    COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT_LIST_DIR}/${golden}.py" --check)
+    COMMAND "${SYSTEM_PYTHON}" -B "${CMAKE_CURRENT_LIST_DIR}/${golden}.py" --check)
   set_tests_properties(datasets.${golden} PROPERTIES LABELS datasets TIMEOUT 600 COST ${HULLBENCH_COST_OF_LONG_TESTS})
 endforeach()
 hullbench_test(test_real_points

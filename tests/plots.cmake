@@ -20,8 +20,9 @@ foreach(page IN ITEMS report comparison site)
   hullbench_tool_test(NAME plots.${page}_in_browser
     NEEDS "${SYSTEM_PYTHON}:jsonschema" esbuild node "${BROWSERS}"
       "${PROJECT_SOURCE_DIR}/plots/node_modules" "${CMAKE_CURRENT_LIST_DIR}/report/node_modules"
-    COMMAND "${CMAKE_CURRENT_LIST_DIR}/report/run.sh" ${page}
-            "$<TARGET_FILE:hullbench>" "$<TARGET_FILE:write_invented_report>" "${CMAKE_BINARY_DIR}/tests/${page}_in_browser")
+    COMMAND ${CMAKE_COMMAND} -E env "HULLBENCH=$<TARGET_FILE:hullbench>" "PYTHON=${SYSTEM_PYTHON}"
+            "WRITE_INVENTED_REPORT=$<TARGET_FILE:write_invented_report>" "OUTPUT=${CMAKE_BINARY_DIR}/tests/${page}_in_browser"
+            node --test --test-reporter=spec "${CMAKE_CURRENT_LIST_DIR}/report/${page}.test.mjs")
   set_tests_properties(plots.${page}_in_browser PROPERTIES LABELS plots TIMEOUT 1200 COST ${HULLBENCH_COST_OF_LONG_TESTS})
 endforeach()
 hullbench_tool_test(NAME plots.choice_in_browser

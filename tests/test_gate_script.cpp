@@ -26,6 +26,7 @@ void make_script(const fs::path& path, const std::string& text) {
 class GateScript : public ::testing::Test {
  protected:
   void SetUp() override {
+    if (const std::string why = missing({"git"}); !why.empty()) GTEST_SKIP() << why;
     for (const char* part : {"core", "cmake"}) {
       fs::create_directories(tree() / part);
       write_text(tree() / part / "file", "");

@@ -4,7 +4,10 @@ cmake_minimum_required(VERSION 3.25)
 
 execute_process(COMMAND git -C "${SOURCE}" rev-parse HEAD
   OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
-if(failed)
+# Sources that lie in another project's checkout have no commit.
+execute_process(COMMAND git -C "${SOURCE}" rev-parse --show-prefix
+  OUTPUT_VARIABLE folder OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+if(failed OR NOT folder STREQUAL "")
   set(values "std::nullopt, std::nullopt")
 else()
   execute_process(COMMAND git -C "${SOURCE}" --no-optional-locks status --porcelain --untracked-files=no

@@ -352,6 +352,8 @@ done
 isolated mount -t tmpfs tmpfs /mnt 2>/dev/null ||
   fail "this machine does not let root make namespaces and mounts (unshare, mount), so no bare root can be entered here."
 revision=$(git -C "$checkout" rev-parse --short HEAD 2>/dev/null) || fail "$checkout is no git checkout with a commit."
+[ "$(git -C "$checkout" rev-parse --is-shallow-repository)" = false ] ||
+  fail "this clone has only a part of the history, so no clone can be made of it: 'git fetch --unshallow' first."
 parent=${TMPDIR:-/var/tmp}
 free_gb=$(df --output=avail -BG "$parent" | tail -n 1 | tr -dc 0-9)
 [ "$free_gb" -ge $disk_needed_gb ] || fail "$parent has $free_gb GB free, $disk_needed_gb are needed: set TMPDIR to another place."

@@ -26,8 +26,12 @@ mkdir -p "$build/log" "$build/found" "$work"
 longest=4000
 [ "$name" != concave_hull ] || longest=1200
 echo "==> fuzz_$name: searching for $seconds seconds, log in $log"
-if ! "$build/fuzz_$name" -max_total_time="$seconds" -timeout=10 -max_len=$longest -print_final_stats=1 \
-  -artifact_prefix="$build/found/$name-" "$work" "$here/corpus/$name" >"$log" 2>&1; then
+status=0
+"$build/fuzz_$name" -max_total_time="$seconds" -timeout=10 -max_len=$longest -print_final_stats=1 \
+  -artifact_prefix="$build/found/$name-" "$work" "$here/corpus/$name" >"$log" 2>&1 || status=$?
+interrupted=72 # how libFuzzer ends on Ctrl-C
+[ "$status" -ne $interrupted ] || { echo "fuzz_$name: interrupted" >&2; exit 130; }
+if [ "$status" -ne 0 ]; then
   grep -A 4 -m 1 -E '^FAILED|runtime error|ERROR' "$log" >&2 || true
   grep -E '^artifact_prefix' "$log" >&2 || true
   echo "error: an input breaks fuzz_$name; see $log." >&2

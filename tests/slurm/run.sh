@@ -28,6 +28,7 @@ POLYLIDAR=$(realpath "$2")
 export HULLBENCH POLYLIDAR
 
 work=$(mktemp -d)
+export SLURM_CONF=$work/slurm.conf # from here on no command reaches a cluster of this machine
 daemons=()
 passed=0
 failed=0
@@ -81,7 +82,6 @@ chmod 755 "$work"
 mkdir "$work/munge" "$work/state" "$work/spool"
 dd if=/dev/urandom of="$work/munge/key" bs=1024 count=1 status=none
 chmod 600 "$work/munge/key"
-export SLURM_CONF=$work/slurm.conf
 node=$(hostname -s)
 cat >"$SLURM_CONF" <<CONF
 ClusterName=hullbench

@@ -97,8 +97,11 @@ allowed_at_top="CMakeLists.txt core packaging adapters benchmarks datasets resul
   Makefile CMakePresets.json cmake pyproject.toml setup.py MANIFEST.in LICENSE LICENSE-THIRD-PARTY CHANGELOG.md CITATION.cff CONTRIBUTING.md"
 
 check_layout() {
-  local name status=0
-  for name in $(project_files | cut -d / -f 1 | sort -u); do
+  local name names status=0
+  # Not what a user leaves in the clone.
+  names=$(git ls-files 2>/dev/null | cut -d / -f 1 | sort -u)
+  [ -n "$names" ] || { echo "skipped: this is no git checkout"; return 0; }
+  for name in $names; do
     case "$name" in .*) continue ;; esac
     grep -qwF -- "$name" <<<"$allowed_at_top" || { echo "error: '$name' does not belong at the top level." >&2; status=1; }
   done
@@ -162,6 +165,7 @@ check_version() {
   done < <(
     printf 'CITATION.cff\t%s\n' "$(sed -n 's/^version: //p' CITATION.cff)"
     printf 'CHANGELOG.md\t%s\n' "$(sed -n 's/^## \([0-9.]*\), [0-9]*-[0-9]*-[0-9]*$/\1/p' CHANGELOG.md | head -n 1)"
+    printf 'core/js/README.md\t%s\n' "$(sed -n 's/.*polylidar-\([0-9.]*\)\.tgz.*/\1/p' core/js/README.md | sort -u)"
   )
   # Before 1.0 a minor version may change the interface, and is what a program asks for.
   for file in core/README.md tests/package/CMakeLists.txt; do
