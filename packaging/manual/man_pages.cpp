@@ -15,14 +15,14 @@ namespace {
 /// Text that troff prints as it is.
 std::string escaped(const std::string& text) {
   // What people copy into a shell must not become a typographer's sign.
-  static const std::map<char, const char*> kSigns = {{'\\', "\\e"},  {'-', "\\-"},   {'\'', "\\(aq"},
-                                                     {'`', "\\(ga"}, {'^', "\\(ha"}, {'~', "\\(ti"}};
+  static const std::map<char, const char*> signs = {{'\\', "\\e"},  {'-', "\\-"},   {'\'', "\\(aq"},
+                                                    {'`', "\\(ga"}, {'^', "\\(ha"}, {'~', "\\(ti"}};
   std::string result;
   for (const char c : text) {
     // A dot at the begin of a line would be a request.
     if (c == '.' && (result.empty() || result.back() == '\n')) result += "\\&";
-    const auto sign = kSigns.find(c);
-    result += sign == kSigns.end() ? std::string(1, c) : sign->second;
+    const auto sign = signs.find(c);
+    result += sign == signs.end() ? std::string(1, c) : sign->second;
   }
   return result;
 }

@@ -67,7 +67,7 @@ inline Dataset open(const std::string& path, const char* const* drivers = nullpt
 inline std::vector<OGRLayerH> layers_of(GDALDatasetH dataset) {
   std::vector<OGRLayerH> layers;
   for (int i = 0; i < GDALDatasetGetLayerCount(dataset); ++i) {
-    if (OGRLayerH const layer = GDALDatasetGetLayer(dataset, i)) layers.push_back(layer);
+    if (OGRLayerH layer = GDALDatasetGetLayer(dataset, i)) layers.push_back(layer);
   }
   return layers;
 }

@@ -90,7 +90,7 @@ class LayerReader {
     size_ = static_cast<std::uint64_t>(status.st_size);
     const Dataset dataset = open(path_);
     if (!dataset) fail("GDAL cannot read it" + errors.said());
-    OGRLayerH const layer = layer_of(dataset.get());
+    OGRLayerH layer = layer_of(dataset.get());
     file_.crs = crs_of(OGR_L_GetSpatialRef(layer));
     if (!options_.by.empty()) find_field(layer);
     if (const auto& window = options_.window) {
@@ -121,7 +121,7 @@ class LayerReader {
     std::vector<OGRLayerH> layers = layers_of(dataset);
     const std::string names = listed(names_of(layers));
     if (!options_.layer.empty()) {
-      OGRLayerH const layer = GDALDatasetGetLayerByName(dataset, options_.layer.c_str());
+      OGRLayerH layer = GDALDatasetGetLayerByName(dataset, options_.layer.c_str());
       if (layer == nullptr)
         fail("it has no layer " + in_quotes(options_.layer) + "; its layers are " + names);
       return layer;
@@ -134,7 +134,7 @@ class LayerReader {
   }
 
   void find_field(OGRLayerH layer) {
-    OGRFeatureDefnH const fields = OGR_L_GetLayerDefn(layer);
+    OGRFeatureDefnH fields = OGR_L_GetLayerDefn(layer);
     const int count = OGR_FD_GetFieldCount(fields);
     int field = OGR_FD_GetFieldIndex(fields, options_.by.c_str());
     const auto number = point_files::parse_count(options_.by);
@@ -163,7 +163,7 @@ class LayerReader {
   void add(OGRFeatureH feature) {
     constexpr std::uint64_t kFeaturesBetweenLooks = 4096;
     if (++done_ % kFeaturesBetweenLooks == 0) tell();
-    OGRGeometryH const geometry = OGR_F_GetGeometryRef(feature);
+    OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
     if (geometry == nullptr) return;
     const std::size_t before = file_.points.size();
     add_geometry(geometry);
@@ -233,14 +233,14 @@ GDALDriverH driver_of(const VectorOutput& output) {
     return driver != nullptr && can(driver, GDAL_DCAP_VECTOR) && can(driver, GDAL_DCAP_CREATE);
   };
   if (!output.driver.empty()) {
-    GDALDriverH const driver = GDALGetDriverByName(output.driver.c_str());
+    GDALDriverH driver = GDALGetDriverByName(output.driver.c_str());
     if (writes(driver)) return driver;
     throw ConfigurationError("this GDAL has no driver " + in_quotes(output.driver) +
                              " that writes polygons; 'ogrinfo --formats' lists those that can ('w')");
   }
   const std::string ending = fs::path(output.path).extension().string();
   for (int d = 0; d < GDALGetDriverCount(); ++d) {
-    GDALDriverH const driver = GDALGetDriver(d);
+    GDALDriverH driver = GDALGetDriver(d);
     if (!writes(driver)) continue;
     const char* const beginning = GDALGetMetadataItem(driver, GDAL_DMD_CONNECTION_PREFIX, nullptr);
     if (beginning != nullptr && *beginning != '\0' && output.path.starts_with(beginning)) return driver;
@@ -324,9 +324,8 @@ std::vector<std::string> translate(GDALDatasetH source, const std::string& to, c
   const std::string driver = GDALGetDriverShortName(driver_of(output));
   std::vector<std::string> words = {"-f", driver, "-nln", layer_name(output), "-a_srs", system_text(crs)};
   if (driver == "ESRI Shapefile") words.insert(words.end(), {"-lco", "ENCODING=UTF-8"});
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
+  std::vector<char*> arguments(words.size() + 1);
+  std::ranges::transform(words, arguments.begin(), [](std::string& word) { return word.data(); });
   GdalErrors errors;
   const std::unique_ptr<GDALVectorTranslateOptions, void (*)(GDALVectorTranslateOptions*)> options(
       GDALVectorTranslateOptionsNew(arguments.data(), nullptr), &GDALVectorTranslateOptionsFree);

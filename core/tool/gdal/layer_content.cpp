@@ -15,14 +15,14 @@ void add_bounds(OGRGeometryH geometry, std::optional<Box>& bounds) {
 }
 
 void add_layer(OGRLayerH layer, LayerContent& content) {
-  OGRFeatureDefnH const fields = OGR_L_GetLayerDefn(layer);
+  OGRFeatureDefnH fields = OGR_L_GetLayerDefn(layer);
   const int label = OGR_FD_GetFieldIndex(fields, "label");
   const bool is_text = label >= 0 && OGR_Fld_GetType(OGR_FD_GetFieldDefn(fields, label)) == OFTString;
   if (is_text && !content.labels) content.labels.emplace();
-  if (OGRSpatialReferenceH const system = OGR_L_GetSpatialRef(layer)) content.system.reset(OSRClone(system));
+  if (OGRSpatialReferenceH system = OGR_L_GetSpatialRef(layer)) content.system.reset(OSRClone(system));
   OGR_L_ResetReading(layer);
   while (const Feature feature{OGR_L_GetNextFeature(layer)}) {
-    OGRGeometryH const geometry = OGR_F_GetGeometryRef(feature.get());
+    OGRGeometryH geometry = OGR_F_GetGeometryRef(feature.get());
     if (geometry == nullptr || OGR_G_IsEmpty(geometry) != 0) continue;
     add_bounds(geometry, content.bounds);
     if (is_text) content.labels->insert(OGR_F_GetFieldAsString(feature.get(), label));
@@ -33,7 +33,7 @@ void add_layer(OGRLayerH layer, LayerContent& content) {
 
 LayerContent content_of(GDALDatasetH dataset) {
   LayerContent content;
-  for (OGRLayerH const layer : layers_of(dataset)) add_layer(layer, content);
+  for (OGRLayerH layer : layers_of(dataset)) add_layer(layer, content);
   return content;
 }
 

@@ -213,7 +213,7 @@ class LasReader {
     for (std::uint64_t r = 0; r < header_.extended_records; ++r) {
       std::array<char, kExtendedRecordHeader> start{};
       if (!reader_.read(start.data(), start.size())) return;
-      const std::uint64_t size = whole_at<std::uint64_t>(&start[20]);
+      const auto size = whole_at<std::uint64_t>(&start[20]);
       const std::optional<std::uint64_t> left = reader_.remaining();
       if ((left && size > *left) || !read_record(start.data(), size)) return;
     }
@@ -224,7 +224,7 @@ class LasReader {
     for (std::uint64_t r = 0; r < header_.extended_records; ++r) {
       if (bytes.size() < kExtendedRecordHeader) return;
       const char* const start = bytes.data();
-      const std::uint64_t size = whole_at<std::uint64_t>(start + 20);
+      const auto size = whole_at<std::uint64_t>(start + 20);
       bytes.remove_prefix(kExtendedRecordHeader);
       if (size > bytes.size()) return;
       if (is_wanted(start, size)) take_record(start, std::string(bytes.substr(0, size)));

@@ -172,7 +172,7 @@ std::uint64_t LazPoints::find_table() const {
   // A program that could not go back there wrote the place to the end of the file.
   constexpr std::uint64_t kAtEnd = ~std::uint64_t{0};
   if (whole_at<std::uint64_t>(place.data()) == kAtEnd) read_bytes(end_ - place.size(), place);
-  const std::uint64_t table_at = whole_at<std::uint64_t>(place.data());
+  const auto table_at = whole_at<std::uint64_t>(place.data());
   if (table_at == points_at_) {
     reader_.fail(
         "it is a LAZ file without the table of its chunks, as its writing was interrupted; write it again");
