@@ -106,7 +106,7 @@ TEST(Grads, AreNoDegrees) {
   }
   EXPECT_TRUE(crs_of_name("EPSG:4807")->is_in_grads);
   const auto in_grads = [](const std::string& inside) {
-    return crs_of_wkt("GEOGCS[\"GCS_somewhere\",DATUM[\"d\"]," + inside + "]")->is_in_grads;
+    return crs_of_wkt(R"(GEOGCS["GCS_somewhere",DATUM["d"],)" + inside + "]")->is_in_grads;
   };
   EXPECT_TRUE(in_grads(R"(UNIT["Grad",0.01570796326794897])"));
   EXPECT_TRUE(in_grads(R"(AXIS["lat",north,ANGLEUNIT["grad",0.0157]],AXIS["lon",east])"));

@@ -222,7 +222,7 @@ TEST(PolylidarManualTest, CompletesDriversOfGdalWhereThereIsGdal) {
   EXPECT_EQ(contains(completion_of(POLYLIDAR), "gdal:GPKG"), HAS_GDAL);
 #ifdef POLYLIDAR_WITH_GDAL
   expect_says(completion_of(POLYLIDAR_WITH_GDAL),
-              "\"polylidar hull --format\") choices=\"auto geojson wkt wkb svg gdal:GPKG ");
+              R"("polylidar hull --format") choices="auto geojson wkt wkb svg gdal:GPKG )");
 #endif
 }
 
