@@ -99,14 +99,14 @@ TEST(CrsText, KnownNamesHaveNumbers) {
 TEST(Grads, AreNoDegrees) {
   // NTF (Paris), the same with heights, Voirol 1879 (Paris) and ATF (Paris); Bern 1898 (Bern) is in degrees.
   for (const int number : {4807, 7400, 4821, 4901}) {
-    EXPECT_TRUE(crs_of_epsg(number).is_geographic && crs_of_epsg(number).is_in_grads) << number;
+    EXPECT_TRUE(crs_of_epsg(number).is_geographic && crs_of_epsg(number).is_not_in_degrees) << number;
   }
   for (const int number : {4801, 4806, 4903, 4326, 27572}) {
-    EXPECT_FALSE(crs_of_epsg(number).is_in_grads) << number;
+    EXPECT_FALSE(crs_of_epsg(number).is_not_in_degrees) << number;
   }
-  EXPECT_TRUE(crs_of_name("EPSG:4807")->is_in_grads);
+  EXPECT_TRUE(crs_of_name("EPSG:4807")->is_not_in_degrees);
   const auto in_grads = [](const std::string& inside) {
-    return crs_of_wkt(R"(GEOGCS["GCS_somewhere",DATUM["d"],)" + inside + "]")->is_in_grads;
+    return crs_of_wkt(R"(GEOGCS["GCS_somewhere",DATUM["d"],)" + inside + "]")->is_not_in_degrees;
   };
   EXPECT_TRUE(in_grads(R"(UNIT["Grad",0.01570796326794897])"));
   EXPECT_TRUE(in_grads(R"(AXIS["lat",north,ANGLEUNIT["grad",0.0157]],AXIS["lon",east])"));
@@ -116,7 +116,8 @@ TEST(Grads, AreNoDegrees) {
   EXPECT_FALSE(in_grads(R"(UNIT["degree",0.0174])"));
   EXPECT_FALSE(in_grads(R"(PRIMEM["Paris",2.5969213,ANGLEUNIT["grad",0.0157]],ANGLEUNIT["degree",0.01745])"));
   EXPECT_FALSE(in_grads(R"(AXIS["h",up,LENGTHUNIT["metre",1]])"));
-  EXPECT_FALSE(crs_of_wkt(R"(PROJCS["p",GEOGCS["g",UNIT["Grad",0.0157]],UNIT["metre",1]])")->is_in_grads);
+  EXPECT_FALSE(
+      crs_of_wkt(R"(PROJCS["p",GEOGCS["g",UNIT["Grad",0.0157]],UNIT["metre",1]])")->is_not_in_degrees);
   const auto keys = [](std::uint16_t system, std::uint16_t unit) {
     return crs_of_geokeys(
         std::vector<std::uint16_t>{1, 1, 0, 3, 1024, 0, 1, 2, 2048, 0, 1, system, 2054, 0, 1, unit});
@@ -124,7 +125,7 @@ TEST(Grads, AreNoDegrees) {
   EXPECT_EQ(keys(4275, 9102), (Crs{4275, true, true}));
   EXPECT_EQ(keys(4275, 9105), (Crs{4275, true, true, "", true}));
   EXPECT_EQ(keys(32767, 9105), (Crs{0, true, true, "", true}));
-  EXPECT_TRUE(keys(4807, 0)->is_in_grads);
+  EXPECT_TRUE(keys(4807, 0)->is_not_in_degrees);
 }
 
 TEST(GeoKeys, ACitationOfAKnownNameHasANumber) {

@@ -25,8 +25,8 @@ class PointLocator {
   bool contains(const Point& point) const;
 
   /// The polygon, as its place in the shape, that has `point` inside or on its boundary; where two meet, one
-  /// of them; nothing outside. Of polygons that overlap, the first, or one on
-  /// whose boundary the point lies. O(edges in its strip).
+  /// of them; nothing outside. Of polygons that overlap, the first, or one on whose boundary the point lies.
+  /// O(edges in its strip).
   std::optional<std::size_t> polygon_of(const Point& point) const;
 
   /// The box round the shape; see bounding_box.

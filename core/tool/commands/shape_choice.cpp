@@ -238,8 +238,7 @@ std::string unknown_crs_note(const ShapeChoice& choice, const Crs& crs, const Bo
   if (look_like_degrees(box)) return "if the points are longitudes and latitudes, give --crs EPSG:4326";
   if (!has_crs || could_be_degrees(box)) return "";
   return "the points name no coordinate system, and most programs take a result without one for longitude "
-         "and "
-         "latitude; --crs gives it, as in --crs EPSG:25832, and --crs none says that there is none";
+         "and latitude; --crs gives it, as in --crs EPSG:25832, and --crs none says that there is none";
 }
 
 void check_magnitude(std::span<const Point> points) {
@@ -256,11 +255,10 @@ void check_magnitude(std::span<const Point> points) {
 void check_degrees(const Crs& crs, const Box& box) {
   const bool is_empty = box.min.x > box.max.x;
   if (!crs.is_geographic || is_empty) return;
-  if (crs.is_in_grads) {
+  if (crs.is_not_in_degrees) {
     throw ConfigurationError(
         "the coordinate system is longitude and latitude in grads, or in another unit than degrees; "
-        "transform "
-        "the points into degrees, or give --crs none to take them as plane coordinates");
+        "transform the points into degrees, or give --crs none to take them as plane coordinates");
   }
   if (could_be_degrees(box)) return;
   throw ConfigurationError(

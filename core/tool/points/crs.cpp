@@ -190,7 +190,8 @@ std::optional<Crs> horizontal_system(std::string_view text) {
       if (found && (is_own_unit || node.keyword == "LENGTHUNIT") && node.values.size() >= 2) {
         is_in_metres = is_in_metres && real_number_of(node.values[1]) == 1;
       }
-      if (found && found->is_geographic && gives_other_unit(open, depth_of_found)) found->is_in_grads = true;
+      if (found && found->is_geographic && gives_other_unit(open, depth_of_found))
+        found->is_not_in_degrees = true;
       if (found && open.size() == depth_of_found && found->epsg == 0 &&
           (found->is_geographic || is_in_metres)) {
         found->epsg = number_of_known_name(node.values[0]);
@@ -214,7 +215,10 @@ Crs crs_of_epsg(int number) {
   const auto has = [&](const Numbers& numbers) { return numbers.has(number); };
   const bool is_geographic = std::any_of(kGeographic.begin(), kGeographic.end(), has) ||
                              std::any_of(kGeographicWithHeights.begin(), kGeographicWithHeights.end(), has);
-  return {.epsg = number, .is_geographic = is_geographic, .is_given = true, .is_in_grads = has_grads(number)};
+  return {.epsg = number,
+          .is_geographic = is_geographic,
+          .is_given = true,
+          .is_not_in_degrees = has_grads(number)};
 }
 
 std::optional<Crs> crs_of_name(std::string_view name) {
@@ -235,7 +239,7 @@ std::optional<Crs> crs_of_name(std::string_view name) {
 std::optional<Crs> crs_of_wkt(std::string_view text) {
   std::optional<Crs> crs = horizontal_system(text);
   if (crs && crs->epsg == 0) crs->wkt = text;
-  if (crs && has_grads(crs->epsg)) crs->is_in_grads = true;
+  if (crs && has_grads(crs->epsg)) crs->is_not_in_degrees = true;
   return crs;
 }
 
@@ -268,10 +272,13 @@ std::optional<Crs> crs_of_geokeys(std::span<const std::uint16_t> keys, std::stri
   if (!is_geographic && model != 1 && projected == 0) return {};
   const std::uint16_t number = is_geographic ? geodetic : projected;
   const std::uint16_t angle = numbers[kAngularUnit];
-  const bool is_in_grads =
+  const bool is_not_in_degrees =
       is_geographic && (has_grads(number) || (angle >= kRadian && angle <= kGon && angle != kDegree));
   if (number != 0 && number != kUserDefined) {
-    return Crs{.epsg = number, .is_geographic = is_geographic, .is_given = true, .is_in_grads = is_in_grads};
+    return Crs{.epsg = number,
+               .is_geographic = is_geographic,
+               .is_given = true,
+               .is_not_in_degrees = is_not_in_degrees};
   }
   // A system of that name in feet is another one.
   const bool is_in_metres = !numbers.contains(kLengthUnit) || numbers[kLengthUnit] == kMetre;
@@ -280,11 +287,12 @@ std::optional<Crs> crs_of_geokeys(std::span<const std::uint16_t> keys, std::stri
     name = name.substr(0, name.find_first_of(std::string_view("|\0", 2)));
     // Esri's programs write "PCS Name = WGS_1984_UTM_Zone_32N".
     Crs known = crs_of_epsg(number_of_known_name(name.substr(name.rfind('=') + 1)));
-    known.is_in_grads = is_in_grads;
+    known.is_not_in_degrees = is_not_in_degrees;
     if (known.epsg > 0 && known.is_geographic == is_geographic && (is_geographic || is_in_metres))
       return known;
   }
-  return Crs{.epsg = 0, .is_geographic = is_geographic, .is_given = true, .is_in_grads = is_in_grads};
+  return Crs{
+      .epsg = 0, .is_geographic = is_geographic, .is_given = true, .is_not_in_degrees = is_not_in_degrees};
 }
 
 }  // namespace polylidar::tool

@@ -11,11 +11,11 @@ namespace polylidar::tool {
 
 /// A coordinate reference system as far as it matters here. Nothing is known of it by default.
 struct Crs {
-  int epsg = 0;                ///< its number in EPSG's register; 0: not known
-  bool is_geographic = false;  ///< x and y are longitude and latitude, in degrees if not is_in_grads
-  bool is_given = false;       ///< something is said of it, be it not its number
-  std::string wkt = {};        ///< well-known text of one without a number, where there is any
-  bool is_in_grads = false;    ///< longitude and latitude are in grads, or in another unit than degrees
+  int epsg = 0;                    ///< its number in EPSG's register; 0: not known
+  bool is_geographic = false;      ///< x and y are longitude and latitude, mostly in degrees
+  bool is_given = false;           ///< something is said of it, be it not its number
+  std::string wkt = {};            ///< well-known text of one without a number, where there is any
+  bool is_not_in_degrees = false;  ///< longitude and latitude are in another unit, such as grads
 
   /// "EPSG:25832"; empty when the number is not known.
   std::string name() const;
